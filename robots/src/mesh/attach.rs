@@ -97,8 +97,11 @@ fn load(span: Span, name: &str, found: MeshFile) -> Result<Vec<Triangle>, Box<Di
     };
     match found {
         // An unsupported format is no mistake of the robot.
-        MeshFile::Bytes(_) if !["stl", "obj"].contains(&read::extension(name).as_str()) => {
-            Err(unread("only STL and OBJ are", "convert it, or name a shape that encloses it".to_owned()))
+        MeshFile::Bytes(_) if !["stl", "obj", "dae"].contains(&read::extension(name).as_str()) => {
+            Err(unread(
+                "only STL, OBJ and COLLADA are",
+                "convert it, or name a shape that encloses it".to_owned(),
+            ))
         }
         MeshFile::Bytes(bytes) => read::read(name, &bytes).map_err(bad),
         MeshFile::Missing(looked) => Err(unread("there is no such file", help(&looked))),

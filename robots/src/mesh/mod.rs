@@ -1,9 +1,10 @@
-//! Meshes of the links of a robot: triangles from STL and OBJ files, and the solids that enclose them.
+//! Meshes of the links of a robot: triangles from STL, OBJ and COLLADA files, and the solids that enclose them.
 //!
 //! This module opens no file: [`attach`] asks its caller for the bytes of each, and [`locate`] gives the
 //! paths at which a file may be.
 
 mod attach;
+mod collada;
 mod cover;
 mod read;
 

@@ -1,6 +1,6 @@
 //! Reader of mesh files, from bytes to triangles.
 //!
-//! Two formats are read. STL is a header of 80 bytes, a count and 50 bytes for each triangle, or text with
+//! Three formats are read here and in `collada`. STL is a header of 80 bytes, a count and 50 bytes for each triangle, or text with
 //! the words `facet` and `vertex`. Wavefront OBJ has lines `v X Y Z` and `f A B C …`; normals, textures,
 //! materials and groups are skipped. The readers are our own: they name the line of a mistake and stop at the
 //! limit of triangles, which `stl_io` and `tobj` do not.
@@ -17,8 +17,8 @@ const GREATEST: f64 = 1e9;
 /// Triangle by its three corners, in the frame and the unit of the mesh.
 pub type Triangle = [[f64; 3]; 3];
 
-/// Reads the triangles of a file by the extension of its name: `.stl`, binary or text, or `.obj`. There is at
-/// least one, and every coordinate is finite. O(bytes).
+/// Reads the triangles of a file by the extension of its name: `.stl`, binary or text, `.obj`, or `.dae`.
+/// There is at least one, and every coordinate is finite. O(bytes).
 ///
 /// # Errors
 ///
@@ -38,7 +38,8 @@ pub fn read(file: &str, bytes: &[u8]) -> Result<Vec<Triangle>, String> {
     let triangles = match extension(file).as_str() {
         "stl" => stl(bytes)?,
         "obj" => obj(bytes)?,
-        other => return Err(format!("`.{other}` files are not read, `.stl` and `.obj` are")),
+        "dae" => super::collada::read(bytes)?,
+        other => return Err(format!("`.{other}` files are not read, `.stl`, `.obj` and `.dae` are")),
     };
     if triangles.is_empty() {
         return Err("it has no triangle".to_owned());
@@ -59,7 +60,7 @@ pub(super) fn too_large() -> String {
     format!("it is larger than {} MiB", MAX_BYTES >> 20)
 }
 
-fn too_many() -> String {
+pub(super) fn too_many() -> String {
     format!("it has more than {MAX_TRIANGLES} triangles")
 }
 

@@ -63,7 +63,7 @@ fn mesh_reader_explains_mistakes() {
         why("a.obj", b"v 0 0 nan\nf 1 1 1"),
         "it has a corner that is nowhere: not a finite number, or beyond 1e9"
     );
-    assert_eq!(why("a.dae", b""), "`.dae` files are not read, `.stl` and `.obj` are");
+    assert_eq!(why("a.ply", b""), "`.ply` files are not read, `.stl`, `.obj` and `.dae` are");
     let many = vec![CORNER; MAX_TRIANGLES + 1];
     assert_eq!(why("a.stl", &binary(&many)), "it has more than 200000 triangles");
 }
