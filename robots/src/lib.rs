@@ -9,3 +9,4 @@ pub mod quaternion;
 pub mod scene;
 pub mod srdf;
 pub mod urdf;
+pub mod xacro;

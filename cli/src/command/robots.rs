@@ -1,28 +1,27 @@
 //! `motet robots`: lists and shows robots, checks their files, and writes the card of a new one.
 
+mod add;
 mod mjcf;
+mod xacro;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 use motet_compiler::Session;
 use motet_geometry::kinematics::KinematicChain;
 use motet_geometry::planning::{AllowedCollisions, Contact, IkSolver, QueryContext, RobotModel, SceneState};
-use motet_project::files::{add_source, read_small};
-use motet_project::{Discard, ProjectError, RobotFiles, find_stance, require, robot_names};
-use motet_robots::card::{DraftInputs, DraftStance, Drive, Range, Robot};
+use motet_project::{ProjectError, RobotFiles, require, robot_names, touching};
+use motet_robots::card::{Drive, Range, Robot};
 use motet_robots::clearance::Clearance;
 use motet_robots::scene::Scene;
-use motet_robots::srdf::{self, Srdf};
 use motet_robots::urdf::Urdf;
-use motet_robots::{card, urdf};
 use motet_syntax::ast::{Item, PrimitiveDecl, TypeExpr};
 use motet_syntax::unit::Dimension;
 use motet_syntax::{FileId, Source, Sources};
 
 use crate::error::{CliError, Exit};
-use crate::flags::{DiagnosticFormat, folder_of};
-use crate::output::{Colors, count, replace_file};
+use crate::flags::DiagnosticFormat;
+use crate::output::{Colors, count};
 use crate::report::Report;
 
 /// Flags of `motet robots`.
@@ -54,7 +53,7 @@ enum RobotsCommand {
     Mjcf(mjcf::MjcfArgs),
     /// Write a first card for a robot from its URDF
     Add {
-        /// URDF of the robot
+        /// URDF or xacro of the robot; of a xacro, the URDF is written beside the card
         #[arg(value_name = "URDF")]
         urdf: PathBuf,
         /// Folder for the robot.toml [default: folder of the URDF]
@@ -63,6 +62,15 @@ enum RobotsCommand {
         /// SRDF of the robot [default: the one beside the URDF]
         #[arg(long, value_name = "SRDF")]
         srdf: Option<PathBuf>,
+        /// Folder that holds ROS packages, for `package://` and `$(find …)`; repeatable
+        #[arg(long, value_name = "FOLDER")]
+        packages: Vec<PathBuf>,
+        /// Argument of a xacro; repeatable
+        #[arg(long = "arg", value_name = "NAME:=VALUE")]
+        arguments: Vec<String>,
+        /// Link of the tip of the hand, where the card is to have another arm than the one that is found
+        #[arg(long, value_name = "LINK")]
+        tip: Option<String>,
     },
 }
 
@@ -73,7 +81,17 @@ pub(crate) fn run(args: &RobotsArgs, colors: Colors) -> Result<Exit, CliError> {
         Some(RobotsCommand::Show { name }) => show(name, report),
         Some(RobotsCommand::Check { name }) => check(name, report),
         Some(RobotsCommand::Mjcf(args)) => mjcf::run(args, report),
-        Some(RobotsCommand::Add { urdf, to, srdf }) => add(urdf, to.as_deref(), srdf.as_deref(), report),
+        Some(RobotsCommand::Add { urdf, to, srdf, packages, arguments, tip }) => {
+            let inputs = add::AddInputs {
+                urdf,
+                to: to.as_deref(),
+                srdf: srdf.as_deref(),
+                packages,
+                arguments,
+                tip: tip.as_deref(),
+            };
+            add::add(&inputs, report)
+        }
     })
 }
 
@@ -268,7 +286,7 @@ fn describe(robot: &Robot, urdf: &Urdf) -> BodyReport {
         ))
     }));
     let mut described = BodyReport { lines, warnings: 0 };
-    postures(&machine, &mut described);
+    postures(&machine, urdf, &mut described);
     described
 }
 
@@ -276,7 +294,7 @@ fn describe(robot: &Robot, urdf: &Urdf) -> BodyReport {
 const FLOOR_TOLERANCE: f64 = 0.01;
 
 /// Describes contacts and parts below the floor in each posture.
-fn postures(machine: &RobotModel, described: &mut BodyReport) {
+fn postures(machine: &RobotModel, urdf: &Urdf, described: &mut BodyReport) {
     let scene = Scene::default();
     let mut world = SceneState::new(machine, &scene);
     for posture in machine.card().postures.keys() {
@@ -286,16 +304,22 @@ fn postures(machine: &RobotModel, described: &mut BodyReport) {
         let name = posture.escape_debug().to_string();
         let touch = room.contact(&world.robot, AllowedCollisions::default());
         let sunk = machine.lowest(&world.robot, |_| true).filter(|(_, height)| *height < -FLOOR_TOLERANCE);
+        let unread = machine.body().uncovered_links().len();
         if touch.is_none() && sunk.is_none() {
-            described.lines.push(format!("{name:8}  touches neither itself nor the floor"));
+            let known = match unread {
+                0 => String::new(),
+                _ => format!(", as far as shapes are known: {} without one", count(unread, "link")),
+            };
+            described.lines.push(format!("{name:8}  touches neither itself nor the floor{known}"));
         }
         if let Some(Contact { link, other, is_own }) = touch {
             let (link, other) = (link.escape_debug(), other.escape_debug());
             let instead = format!("give joints other positions under `[postures.{name}]`");
             let help = if is_own {
+                let pairs = touching(machine.card(), urdf, &world.robot.joints);
                 format!(
-                    "{instead}, or allow the contact by an SRDF, named as `srdf` in `[model]`: \
-                     `<disable_collisions link1=\"{link}\" link2=\"{other}\"/>`"
+                    "{instead}, or allow the contact by an SRDF, named as `srdf` in `[model]`: {}",
+                    add::srdf_lines(&pairs)
                 )
             } else {
                 format!("{instead}, or a greater `height` in `[model]`")
@@ -323,103 +347,4 @@ fn solver(solver: &IkSolver) -> &'static str {
         IkSolver::Seven(_) => "closed form: seven joints with shoulder, elbow and wrist",
         IkSolver::Steps(_) => "numeric",
     }
-}
-
-/// Runs the command.
-fn add(path: &Path, to: Option<&Path>, srdf: Option<&Path>, report: &mut Report) -> Result<Exit, CliError> {
-    let mut sources = Sources::default();
-    let (source, file, mut diagnostics) =
-        add_source(&path.display().to_string(), &read_small(path)?, &mut sources);
-    let (robot, more) = urdf::read(&source, file);
-    diagnostics.extend(more);
-    let is_sound = require("URDF", &diagnostics, &sources, report).is_ok();
-    // Bytes that are not text may still parse as an empty robot.
-    let Some(robot) = robot.filter(|_| is_sound) else { return Ok(Exit::Findings) };
-    let folder = to.unwrap_or(folder_of(path));
-    let target = folder.join("robot.toml");
-    if target.exists() {
-        return Err(CliError::Message(format!("`{}` exists already", target.display())));
-    }
-    let srdf = srdf.map_or_else(|| srdf_beside(path), |given| Some(given.to_owned()));
-    let srdf_read = match &srdf {
-        Some(path) => {
-            let Some(srdf) = read_srdf(path, &robot, &mut sources, report)? else {
-                return Ok(Exit::Findings);
-            };
-            Some((srdf, relative_to(path, folder)?))
-        }
-        None => None,
-    };
-    let file = relative_to(path, folder)?;
-    let mut beside =
-        DraftInputs { srdf: srdf_read.as_ref().map(|(srdf, name)| (srdf, name.as_str())), stance: None };
-    let stance = stance_of(folder, &card::draft(&robot, &file, &beside));
-    let touch = stance.as_ref().and_then(|stance| stance.touch.clone());
-    beside.stance = stance;
-    let text = card::draft(&robot, &file, &beside);
-    let write = |source| CliError::Write { path: target.clone(), source };
-    std::fs::create_dir_all(folder).map_err(write)?;
-    replace_file(&target, &text)?;
-    let guesses = text.lines().filter(|line| line.contains("guessed")).count();
-    report.out.line(&format!("wrote {}, with {guesses} guesses to review", target.display()));
-    if let Some((_, name)) = &srdf_read {
-        report.out.line(&format!("used the SRDF {}", name.escape_debug()));
-    }
-    if let Some([one, other]) = touch {
-        let (one, other) = (one.escape_debug(), other.escape_debug());
-        report.out.line(&format!(
-            "warning: `{one}` touches `{other}`, and no posture without contact was found: \
-             no motion can start"
-        ));
-    }
-    report.out.line(&format!("next: motet robots check {}", folder.display()));
-    Ok(Exit::Success)
-}
-
-/// Reads the SRDF; `None` if it has errors, which go to the report.
-fn read_srdf(
-    path: &Path,
-    robot: &Urdf,
-    sources: &mut Sources,
-    report: &mut Report,
-) -> Result<Option<Srdf>, CliError> {
-    let (source, file, mut diagnostics) =
-        add_source(&path.display().to_string(), &read_small(path)?, sources);
-    let (srdf, more) = srdf::read(&source, file, robot);
-    diagnostics.extend(more);
-    let is_sound = require("SRDF", &diagnostics, sources, report).is_ok();
-    Ok(srdf.filter(|_| is_sound))
-}
-
-/// Stance of the robot of a card; `None` if its body has errors, which `motet robots check` reports.
-fn stance_of(folder: &Path, card: &str) -> Option<DraftStance> {
-    let mut sources = Sources::default();
-    let files = RobotFiles::draft(folder, card);
-    let robot = files.card(&mut sources, &mut Discard).ok()?;
-    let body = files.body(&robot, &mut sources, &mut Discard).ok()??;
-    Some(find_stance(&robot, &body))
-}
-
-/// SRDF beside a URDF: the one of the same name, or else the only one.
-fn srdf_beside(path: &Path) -> Option<PathBuf> {
-    let same = path.with_extension("srdf");
-    if same.is_file() {
-        return Some(same);
-    }
-    let is_srdf = |path: &PathBuf| path.extension().is_some_and(|end| end == "srdf") && path.is_file();
-    let inside = std::fs::read_dir(folder_of(path)).ok()?;
-    let mut found = inside.flatten().map(|entry| entry.path()).filter(is_srdf);
-    found.next().filter(|_| found.next().is_none())
-}
-
-/// Path of a file in the card: its name if the file is in the card's folder, otherwise its absolute path.
-fn relative_to(path: &Path, folder: &Path) -> Result<String, CliError> {
-    let whole = |path: &Path| -> Result<PathBuf, CliError> {
-        path.canonicalize().map_err(|source| CliError::read(path, source))
-    };
-    // A folder that does not exist yet holds no file.
-    let is_there =
-        folder.canonicalize().is_ok_and(|folder| whole(folder_of(path)).is_ok_and(|own| own == folder));
-    let seen = if is_there { path.file_name().map(PathBuf::from) } else { Some(whole(path)?) };
-    Ok(seen.unwrap_or_default().display().to_string())
 }

@@ -16,6 +16,10 @@ use crate::urdf::{Urdf, UrdfShape};
 pub struct DraftInputs<'a> {
     /// SRDF, and its path relative to the folder of the card.
     pub srdf: Option<(&'a Srdf, &'a str)>,
+    /// Folders that hold ROS packages, as seen from the card's.
+    pub packages: &'a [String],
+    /// Link of the tip of the hand, where it is not to be searched.
+    pub tip: Option<&'a str>,
     /// Stance of the robot, as far as it was computed.
     pub stance: Option<DraftStance>,
 }
@@ -29,6 +33,13 @@ pub struct DraftStance {
     pub joints: IndexMap<SmolStr, f64>,
     /// Two links or obstacles that touch in it, if every tried posture has a contact.
     pub touch: Option<[SmolStr; 2]>,
+}
+
+/// Tips of arms that the card of a draft leaves out: each is the last link of a chain with joints of its own,
+/// with the number of these. `tip` is the link of the hand of the card.
+#[must_use]
+pub fn other_arms(urdf: &Urdf, tip: &str) -> Vec<(SmolStr, usize)> {
+    super::draft_parts::other_arms(urdf, tip)
 }
 
 /// Writes the text of a card for the robot of a URDF. `file` is the path of the URDF relative to the folder
@@ -47,7 +58,7 @@ pub struct DraftStance {
 /// ```
 #[must_use]
 pub fn draft(urdf: &Urdf, file: &str, beside: &DraftInputs<'_>) -> String {
-    let parts = RobotParts::find(urdf, beside.srdf.map(|(srdf, _)| srdf));
+    let parts = RobotParts::find(urdf, beside.srdf.map(|(srdf, _)| srdf), beside.tip);
     let mut card = String::new();
     // Writing to a string does not fail.
     let _ = write_card(&mut card, urdf, file, beside, &parts);
@@ -139,6 +150,10 @@ fn write_model(
     writeln!(card, "\n[model]\nurdf = {}", quoted(file))?;
     if let Some((_, srdf)) = beside.srdf {
         writeln!(card, "srdf = {}", quoted(srdf))?;
+    }
+    if !beside.packages.is_empty() {
+        let folders: Vec<String> = beside.packages.iter().map(|folder| quoted(folder)).collect();
+        writeln!(card, "packages = [{}]", folders.join(", "))?;
     }
     writeln!(card, "base = {}  # guessed: {}", quoted(link(urdf, parts.base)), parts.base_why)?;
     let height = beside.stance.as_ref().map_or(0.0, |stance| stance.height_m);

@@ -43,9 +43,13 @@ pub(super) struct DraftHand {
 const ARM: usize = 3;
 
 impl RobotParts {
-    pub(super) fn find(urdf: &Urdf, srdf: Option<&Srdf>) -> Self {
+    pub(super) fn find(urdf: &Urdf, srdf: Option<&Srdf>, tip: Option<&str>) -> Self {
         let DraftBase { link: base, why: base_why, is_planar } = DraftBase::find(urdf);
-        let hand = hand(urdf, srdf, base);
+        let given = tip.and_then(|tip| urdf.links.iter().position(|link| link.name == tip));
+        let hand = match given {
+            Some(tip) => Some(measured(urdf, base, tip, &[], "as it was given".to_owned())),
+            None => hand(urdf, srdf, base),
+        };
         let camera = camera(urdf);
         let camera_is_on_arm = camera.is_some_and(|(camera, _)| {
             let first = hand.as_ref().and_then(|hand| hand.arm.first());
@@ -183,6 +187,32 @@ fn guessed_tip(urdf: &Urdf, base: usize, stems: &[ArmStem]) -> Option<(usize, &'
         });
         found.map(|tip| (tip, why))
     })
+}
+
+/// Tips of chains of at least [`ARM`] joints that the arm to a tip does not share.
+pub(super) fn other_arms(urdf: &Urdf, tip: &str) -> Vec<(SmolStr, usize)> {
+    let base = DraftBase::find(urdf).link;
+    let stems = stems(urdf, base);
+    let own = |link: usize| -> Vec<SmolStr> {
+        let steps = beyond(urdf, base, link);
+        steps.iter().filter(|joint| works(joint)).map(|joint| joint.name.clone()).collect()
+    };
+    let mut taken = urdf.links.iter().position(|link| link.name == tip).map_or_else(Vec::new, own);
+    let mut arms = Vec::new();
+    loop {
+        // The longest chain beyond what is taken, without fingers.
+        let ends = (0..urdf.links.len()).filter_map(|link| {
+            let stem = stems.get(link).filter(|stem| !stem.is_leg && stem.palm.is_none())?;
+            let joints: Vec<SmolStr> = own(link).into_iter().filter(|joint| !taken.contains(joint)).collect();
+            (stem.joints >= ARM && joints.len() >= ARM).then_some((joints, link))
+        });
+        let Some((joints, link)) = ends.max_by_key(|(joints, link)| (joints.len(), *link)) else {
+            return arms;
+        };
+        let name = urdf.links.get(link).map_or_else(SmolStr::default, |link| link.name.clone());
+        arms.push((name, joints.len()));
+        taken.extend(joints);
+    }
 }
 
 /// Measures the hand with a tip, whose own joints the SRDF may name.

@@ -16,7 +16,7 @@ pub mod wire;
 
 pub(crate) use body::JointPosition;
 pub use body::{ModelFile, fit, missing};
-pub use draft::{DraftInputs, DraftStance, draft};
+pub use draft::{DraftInputs, DraftStance, draft, other_arms};
 pub use errors::CODES;
 pub use model::{BoundSpan, CardSpans, *};
 pub use read::read;

@@ -13,7 +13,7 @@ pub use error::{DiagnosticSink, Discard, ProjectError, reason, require};
 pub use project::{
     DOCUMENT, Project, ProjectBuilder, ProjectSession, SessionInputs, named_robot, open_robot, read_scene,
 };
-pub use robot::find_stance;
 pub use robot::{RobotFiles, robot_names};
+pub use robot::{find_stance, touching};
 pub use saved::{SavedAddress, SavedDriver, SavedProject, SavedSimulator};
 pub use simulation::{SimulationInputs, read_profile};
