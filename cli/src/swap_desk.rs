@@ -21,8 +21,11 @@ const BUSY: Time = Time::from_nanos(2_000_000);
 #[derive(Debug)]
 pub(crate) struct Offer {
     pub(crate) policy: String,
-    pub(crate) reply: Sender<Result<Value, Value>>,
+    pub(crate) reply: Sender<SwapResult>,
 }
+
+/// Result of an offer: the policy that has taken over, or the refusal.
+pub(crate) type SwapResult = Result<Value, Value>;
 
 /// Graph of a policy that checks, or the refusal: a problem, and the findings.
 type Checked = Result<Graph, Value>;
@@ -33,8 +36,8 @@ pub(crate) struct SwapDesk {
     setup: DialogueSetup,
     offers: Receiver<Offer>,
     /// Check that goes on, with who waits.
-    checking: Option<(Receiver<Checked>, Sender<Result<Value, Value>>)>,
-    swapping: Option<Sender<Result<Value, Value>>>,
+    checking: Option<(Receiver<Checked>, Sender<SwapResult>)>,
+    swapping: Option<Sender<SwapResult>>,
 }
 
 impl SwapDesk {

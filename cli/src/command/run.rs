@@ -343,13 +343,16 @@ fn given_again(saved: SavedDriver, args: &RunArgs) -> Result<SavedDriver, CliErr
     }
 }
 
+/// Page of a run that goes on, with the project if it can be opened.
+type ResumedPage = (SharedPage, Option<Arc<ProjectSession>>);
+
 /// Page of a run that goes on, with what happened before.
 fn resumed_page(
     folder: &Path,
     args: &RunArgs,
     entries: &[JournalEntry],
     report: &mut Report,
-) -> Result<Option<(SharedPage, Option<Arc<ProjectSession>>)>, CliError> {
+) -> Result<Option<ResumedPage>, CliError> {
     let Some(address) = args.page.view else { return Ok(None) };
     let opened = session(folder, report).map(Arc::new);
     let mut page = LivePage::start(address, opened.as_deref(), TAKES)?;

@@ -10,7 +10,7 @@ use motet_runtime::{RunControl, Time};
 use serde_json::{Value, json};
 use tokio::sync::watch;
 
-use crate::swap_desk::Offer;
+use crate::swap_desk::{Offer, SwapResult};
 
 /// Bytes of items after which a page gets no more of them.
 const MOST_BYTES: usize = 512 * 1024 * 1024;
@@ -172,7 +172,7 @@ impl Hub {
     }
 
     /// Offers a policy that is to take over; what becomes of it arrives in the receiver.
-    pub(crate) fn offer(&self, policy: String) -> Result<Receiver<Result<Value, Value>>, NotTaken> {
+    pub(crate) fn offer(&self, policy: String) -> Result<Receiver<SwapResult>, NotTaken> {
         let (reply, result) = channel();
         let operator = locked(&self.operator);
         let desk = operator.desk.as_ref().ok_or(NotTaken::Nobody)?;

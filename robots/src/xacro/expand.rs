@@ -16,7 +16,7 @@ const MAX_BYTES: usize = 16 << 20;
 const MAX_DEPTH: usize = 100;
 const MAX_INCLUDES: usize = 500;
 /// Expressions that are evaluated in all.
-const MAX_STEPS: usize = 2_000_000;
+const MAX_STEPS: usize = 500_000;
 
 /// Expands a xacro to a URDF. `name` is the path of the file, `arguments` its arguments by name.
 ///
@@ -214,10 +214,12 @@ impl Expander<'_> {
                 rest = behind.get(1..).unwrap_or_default();
             } else if let Some(inner) = after.strip_prefix('{') {
                 let end = closing(inner, '{', '}').ok_or("`${` has no end")?;
-                let expression = inner.get(..end).unwrap_or_default();
-                parts.push(
-                    evaluate(expression, self).map_err(|wrong| format!("`${{{expression}}}`: {wrong}"))?,
-                );
+                let mut expression = inner.get(..end).unwrap_or_default().to_owned();
+                if expression.contains("$(") {
+                    expression = self.text(&expression)?.text();
+                }
+                let value = evaluate(&expression, self);
+                parts.push(value.map_err(|wrong| format!("`${{{expression}}}`: {wrong}"))?);
                 rest = inner.get(end + 1..).unwrap_or_default();
             } else if let Some(inner) = after.strip_prefix('(') {
                 let end = closing(inner, '(', ')').ok_or("`$(` has no end")?;

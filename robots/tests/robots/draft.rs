@@ -100,7 +100,11 @@ fn draft_takes_the_hand_of_the_srdf() {
         let (srdf, found) = srdf::read(&source, FileId(0), &urdf);
         assert_eq!(found, []);
         let srdf = srdf.unwrap();
-        let beside = card::DraftInputs { srdf: Some((&srdf, "robot.srdf")), stance: None };
+        let beside = card::DraftInputs {
+            srdf: Some((&srdf, "robot.srdf")),
+            stance: None,
+            ..card::DraftInputs::default()
+        };
         let text = card::draft(&urdf, "robot.urdf", &beside);
         assert!(text.contains("\nsrdf = \"robot.srdf\"\n"), "{text}");
         let open = text.contains("\nopen = { \"r_pad_joint\" = ");
@@ -155,7 +159,11 @@ fn draft_takes_the_given_stance() {
     let joints = [("A_joint".into(), 0.5), ("TOOL_joint".into(), -0.25), ("other".into(), 1.0)];
     let stance = card::DraftStance { height_m: 0.124, joints: joints.into_iter().collect(), touch: None };
     let read = |stance: card::DraftStance| {
-        let text = card::draft(&urdf, "robot.urdf", &card::DraftInputs { srdf: None, stance: Some(stance) });
+        let text = card::draft(
+            &urdf,
+            "robot.urdf",
+            &card::DraftInputs { srdf: None, stance: Some(stance), ..card::DraftInputs::default() },
+        );
         (card::read(&Source::new("robot.toml", text.as_str()), FileId(0), None).0.unwrap(), text)
     };
     let (robot, text) = read(stance.clone());

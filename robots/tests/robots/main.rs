@@ -15,3 +15,4 @@ mod mesh;
 mod scene;
 mod surplus;
 mod urdf;
+mod xacro;

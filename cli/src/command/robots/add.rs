@@ -7,7 +7,7 @@ use motet_project::files::{add_source, read_small};
 use motet_project::{Discard, RobotFiles, find_stance, require, touching};
 use motet_robots::card::{self, DraftInputs, Robot};
 use motet_robots::srdf::{self, Srdf};
-use motet_robots::urdf::{self, Urdf};
+use motet_robots::urdf::{self, Urdf, UrdfShape};
 use motet_syntax::Sources;
 use smol_str::SmolStr;
 
@@ -63,11 +63,7 @@ pub(super) fn add(inputs: &AddInputs<'_>, report: &mut Report) -> Result<Exit, C
         None => None,
     };
     let file = relative_to(path, folder)?;
-    let whole = |folder: &PathBuf| {
-        let whole = folder.canonicalize().map_err(|source| CliError::read(folder, source));
-        whole.map(|folder| folder.display().to_string())
-    };
-    let packages: Vec<String> = inputs.packages.iter().map(whole).collect::<Result<_, CliError>>()?;
+    let packages = package_folders(inputs, &robot)?;
     let mut beside = DraftInputs {
         srdf: srdf_read.as_ref().map(|(srdf, name)| (srdf, name.as_str())),
         packages: &packages,
@@ -120,6 +116,30 @@ fn read_srdf(
     diagnostics.extend(more);
     let is_sound = require("SRDF", &diagnostics, sources, report).is_ok();
     Ok(srdf.filter(|_| is_sound))
+}
+
+/// Folders for the card in which the packages of the meshes are; those that were given where a package is nowhere.
+fn package_folders(inputs: &AddInputs<'_>, robot: &Urdf) -> Result<Vec<String>, CliError> {
+    let given: Vec<&Path> = inputs.packages.iter().map(PathBuf::as_path).collect();
+    let own = inputs.urdf.canonicalize().map_err(|source| CliError::read(inputs.urdf, source))?;
+    let shapes = robot.links.iter().flat_map(|link| &link.collisions);
+    let names = shapes.filter_map(|solid| match &solid.shape {
+        UrdfShape::Mesh { file, .. } => Some(file.strip_prefix("package://")?.split('/').next()?.to_owned()),
+        _ => None,
+    });
+    let mut folders: Vec<PathBuf> = Vec::new();
+    for name in names.collect::<std::collections::BTreeSet<String>>() {
+        let found = xacro::package(&own, &given, &name);
+        folders.extend(found.and_then(|folder| Some(folder.parent()?.to_owned())));
+    }
+    if folders.is_empty() {
+        for folder in &given {
+            folders.push(folder.canonicalize().map_err(|source| CliError::read(folder, source))?);
+        }
+    }
+    folders.sort();
+    folders.dedup();
+    Ok(folders.iter().map(|folder| folder.display().to_string()).collect())
 }
 
 /// Lines of an SRDF that allow pairs of links to touch.

@@ -21,15 +21,19 @@ impl XacroFiles for Files<'_> {
     }
 
     fn package(&mut self, name: &str) -> Option<String> {
-        // A name that leads elsewhere is no package.
-        if name.contains(['/', '\\']) || name.starts_with('.') {
-            return None;
-        }
-        // The package of the file itself is around it.
-        let around = self.own.ancestors().find(|folder| folder.ends_with(name) && is_package(folder));
-        let below = || self.packages.iter().find_map(|folder| below(folder, name, DEPTH));
-        Some(around.map(Path::to_owned).or_else(below)?.display().to_string())
+        Some(package(self.own, self.packages, name)?.display().to_string())
     }
+}
+
+/// Folder of a package: around a file, or below the folders of packages.
+pub(super) fn package(own: &Path, packages: &[&Path], name: &str) -> Option<PathBuf> {
+    // A name that leads elsewhere is no package.
+    if name.contains(['/', '\\']) || name.starts_with('.') {
+        return None;
+    }
+    let around = own.ancestors().find(|folder| folder.ends_with(name) && is_package(folder));
+    let below = || packages.iter().find_map(|folder| below(folder, name, DEPTH));
+    around.map(Path::to_owned).or_else(below)
 }
 
 fn is_package(folder: &Path) -> bool {
