@@ -5,7 +5,8 @@ use motet_syntax::{Diagnostic, FileId, Source, Span};
 use roxmltree::Node;
 
 use super::cover::cover;
-use super::read::{self, Triangle};
+use super::read;
+use super::triangle::Triangle;
 use crate::quaternion::compose;
 use crate::urdf::{LinkShape, Urdf, UrdfShape, XmlDialect, XmlDocument};
 

@@ -6,7 +6,7 @@
 use roxmltree::{Document, Node, ParsingOptions};
 use std::collections::HashMap;
 
-use super::read::{MAX_TRIANGLES, Triangle, too_many};
+use super::triangle::{MAX_TRIANGLES, Triangle, too_many};
 
 /// Greatest number of XML nodes, and depth of nodes of the scene.
 const MAX_NODES: u32 = 500_000;
@@ -263,14 +263,17 @@ mod tests {
     use super::*;
 
     const TRIANGLE: &str = r##"<?xml version="1.0"?>
-<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema"><asset><unit meter="0.001"/><up_axis>Y_UP</up_axis></asset>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema">
+<asset><unit meter="0.001"/><up_axis>Y_UP</up_axis></asset>
 <library_geometries><geometry id="g"><mesh>
 <source id="p"><float_array id="a" count="12">0 0 0 1000 0 0 1000 1000 0 0 1000 0</float_array>
 <technique_common><accessor source="#a" count="4" stride="3"/></technique_common></source>
 <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
-<polylist count="1"><input semantic="VERTEX" source="#v" offset="0"/><input semantic="NORMAL" source="#n" offset="1"/>
+<polylist count="1"><input semantic="VERTEX" source="#v" offset="0"/>
+<input semantic="NORMAL" source="#n" offset="1"/>
 <vcount>4</vcount><p>0 9 1 9 2 9 3 9</p></polylist></mesh></geometry></library_geometries>
-<library_visual_scenes><visual_scene id="s"><node><translate>0 0 500</translate><node><rotate>0 0 1 90</rotate>
+<library_visual_scenes><visual_scene id="s">
+<node><translate>0 0 500</translate><node><rotate>0 0 1 90</rotate>
 <instance_geometry url="#g"/></node></node></visual_scene></library_visual_scenes>
 <scene><instance_visual_scene url="#s"/></scene></COLLADA>"##;
 

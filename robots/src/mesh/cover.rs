@@ -5,7 +5,7 @@
 //! meets the surface on both sides, so the point is between two points of that part, and any convex solid
 //! that contains these contains it too. Cuts perpendicular to all three axes could miss points deep inside.
 
-use super::read::Triangle;
+use super::triangle::Triangle;
 use crate::quaternion::{Quaternion, from_axis_angle, inverse, mul, rotate};
 use crate::urdf::{LinkShape, Pose, UrdfShape};
 

@@ -1,4 +1,5 @@
-//! Meshes of the links of a robot: triangles from STL, OBJ and COLLADA files, and the solids that enclose them.
+//! Meshes of the links of a robot: triangles from STL, OBJ and COLLADA files, and the solids that enclose
+//! them.
 //!
 //! This module opens no file: [`attach`] asks its caller for the bytes of each, and [`locate`] gives the
 //! paths at which a file may be.
@@ -7,8 +8,10 @@ mod attach;
 mod collada;
 mod cover;
 mod read;
+mod triangle;
 
 pub(crate) use attach::UnreadMesh;
 pub use attach::{CODES, MeshFile, attach, locate};
 pub use cover::cover;
-pub use read::{MAX_BYTES, MAX_TRIANGLES, Triangle, read};
+pub use read::{MAX_BYTES, read};
+pub use triangle::{MAX_TRIANGLES, Triangle};

@@ -1,21 +1,17 @@
 //! Reader of mesh files, from bytes to triangles.
 //!
-//! Three formats are read here and in `collada`. STL is a header of 80 bytes, a count and 50 bytes for each triangle, or text with
-//! the words `facet` and `vertex`. Wavefront OBJ has lines `v X Y Z` and `f A B C …`; normals, textures,
-//! materials and groups are skipped. The readers are our own: they name the line of a mistake and stop at the
+//! STL is a header of 80 bytes, a count and 50 bytes for each triangle, or text with the words `facet` and
+//! `vertex`. Wavefront OBJ has lines `v X Y Z` and `f A B C …`; normals, textures, materials and groups are
+//! skipped. The readers are our own: they name the line of a mistake and stop at the
 //! limit of triangles, which `stl_io` and `tobj` do not.
+
+use super::triangle::{MAX_TRIANGLES, Triangle, too_many};
 
 /// Greatest size of one file, in bytes. Collision meshes have some kilobytes, visual meshes some megabytes.
 pub const MAX_BYTES: u64 = 32 << 20;
 
-/// Greatest number of triangles of one file.
-pub const MAX_TRIANGLES: usize = 200_000;
-
 /// Greatest coordinate, in the unit of the file.
 const GREATEST: f64 = 1e9;
-
-/// Triangle by its three corners, in the frame and the unit of the mesh.
-pub type Triangle = [[f64; 3]; 3];
 
 /// Reads the triangles of a file by the extension of its name: `.stl`, binary or text, `.obj`, or `.dae`.
 /// There is at least one, and every coordinate is finite. O(bytes).
@@ -58,10 +54,6 @@ pub(super) fn extension(file: &str) -> String {
 
 pub(super) fn too_large() -> String {
     format!("it is larger than {} MiB", MAX_BYTES >> 20)
-}
-
-pub(super) fn too_many() -> String {
-    format!("it has more than {MAX_TRIANGLES} triangles")
 }
 
 /// Bytes of the header of a binary STL.

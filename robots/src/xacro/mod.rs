@@ -1,11 +1,12 @@
 //! Xacro: the macros in which robot descriptions of ROS are written, expanded to a URDF.
 //!
-//! Properties, macros with defaults and blocks, includes, conditions, arguments, and expressions of the part of
-//! Python that descriptions use, with `load_yaml`. Nothing is executed and no environment is read; sizes and
-//! depths are bounded. This module opens no file: it asks its caller for the text of each.
+//! Properties, macros with defaults and blocks, includes, conditions, arguments, and expressions of the part
+//! of Python that descriptions use, with `load_yaml`. Nothing is executed and no environment is read; sizes
+//! and depths are bounded. This module opens no file: it asks its caller for the text of each.
 
 mod expand;
 mod expression;
+mod parameter;
 mod value;
 mod yaml;
 

@@ -50,8 +50,10 @@ fn macros_take_values_defaults_and_blocks() {
 fn arguments_conditions_files_and_texts() {
     let text = r#"<xacro:arg name="kind" default="a"/><xacro:arg name="size" default="0.5"/>
         <xacro:property name="limits" value="${load_yaml('$(find arms)/limits.yaml')}"/>
-        <xacro:if value="${'$(arg kind)' == 'b'}"><limit upper="${limits['lift']['upper']}" n="${limits.lift.names[1]}"/></xacro:if>
-        <xacro:unless value="$(arg size)"><never/></xacro:unless><note text="$${x} &lt; ${1 + 2 * $(arg size)}"/>"#;
+        <xacro:if value="${'$(arg kind)' == 'b'}">
+        <limit upper="${limits['lift']['upper']}" n="${limits.lift.names[1]}"/></xacro:if>
+        <xacro:unless value="$(arg size)"><never/></xacro:unless>
+        <note text="$${x} &lt; ${1 + 2 * $(arg size)}"/>"#;
     let expected = r#"<limit upper="1.5707963267948966" n="b"/><note text="${x} &lt; 2.0"/>"#;
     assert_eq!(of(text).unwrap(), expected);
 }

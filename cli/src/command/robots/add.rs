@@ -118,7 +118,8 @@ fn read_srdf(
     Ok(srdf.filter(|_| is_sound))
 }
 
-/// Folders for the card in which the packages of the meshes are; those that were given where a package is nowhere.
+/// Folders for the card in which the packages of the meshes are; those that were given if no package is
+/// found.
 fn package_folders(inputs: &AddInputs<'_>, robot: &Urdf) -> Result<Vec<String>, CliError> {
     let given: Vec<&Path> = inputs.packages.iter().map(PathBuf::as_path).collect();
     let own = inputs.urdf.canonicalize().map_err(|source| CliError::read(inputs.urdf, source))?;
