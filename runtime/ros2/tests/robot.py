@@ -185,7 +185,7 @@ class Robot:
         if binding.get("cameras"):
             camera = binding["cameras"][0]
             self.camera = [publish(camera["image"], "sensor_msgs/Image"), publish(camera["info"], "sensor_msgs/CameraInfo")]
-        self.servers, self.trajectories = [], {}
+        self.servers, self.trajectories, self.twists = [], {}, None
         for controller in binding.get("controllers", []):
             self.serve_trajectories(controller)
         if "navigation" in binding:
@@ -287,6 +287,15 @@ class Robot:
         server = ActionServer(self.node, key, "nav2_msgs/NavigateToPose", lambda _: "reject" not in self.faults, begin, cancel, self.faults)
         server.finish = lambda goal: server.end(goal, SUCCEEDED)
         self.servers.append(server)
+        self.twists = self.node.subscription("/cmd_vel", "geometry_msgs/Twist")
+
+    def heed_twists(self):
+        """A base that is told to stop by its speeds stops, whatever its navigation does."""
+        for twist in self.twists.take(16) if self.twists else ():
+            if hasattr(twist, "linear"):
+                self.note("twist", x=twist.linear.x)
+                for key in [key for key, running in self.trajectories.items() if running[3]]:
+                    self.halt(self.trajectories.pop(key))
 
     def serve_gripper(self, gripper):
         def begin(goal):
@@ -367,6 +376,7 @@ class Robot:
             for server in self.servers:
                 server.step()
             self.serve_hand()
+            self.heed_twists()
             self.tell()
             time.sleep(max(0.0, 0.002 - (time.monotonic() - now)))
 

@@ -192,6 +192,58 @@ def test_another_run_stops_what_moves():
         assert len(robot.events("cancel")) == 1
 
 
+def drive(driver, end, joints=(), secs=4.0):
+    """Starts a motion of the base to a place, and then of joints."""
+    path = [{"base": [0.0, 0.0, 0.0], "joints": [0.0 for _ in joints], "at": 0.0}, {"base": end, "joints": [0.0 for _ in joints], "at": secs, "ramp": 1.0}]
+    if joints:
+        path.append({"base": end, "joints": [value for _, value in joints], "at": secs + 1.0, "ramp": 0.3})
+    witness = {"joints": [name for name, _ in joints], "path": path, "clearance": 0.1}
+    args = {"to": {"entity": "counter"}}
+    return driver.start("go", [{"query": "go_to", "args": [{"entity": "counter"}], "verdict": "proven", "witness": witness}], **args)[0]
+
+
+def test_a_navigation_goes_to_the_end_of_the_path_and_then_the_arm_moves():
+    with RobotProcess(binding="nav.toml") as robot, Driver("nav.toml") as driver:
+        goal = drive(driver, [0.4, 0.2, 0.5], [("arm_lift_joint", 0.2)])
+        assert driver.ended(goal, 15.0) == {"success": None}
+        [event] = robot.events("navigate")
+        assert all(abs(is_at - wanted) < 1e-9 for is_at, wanted in zip(event["goal"], [0.4, 0.2, 0.5]))
+        [lift] = robot.events("trajectory")
+        assert lift["at"] > event["at"] + 1.0 and lift["points"][-1][1][0] == 0.2
+        answer = driver.call("observe", query={"fact": {"fluent": "at", "args": [{"is": {"entity": "robot"}}, {"is": {"entity": "counter"}}]}})
+        assert answer == {"answer": {"truth": True}}
+
+
+def test_a_canceled_navigation_ends_when_the_base_stands_still():
+    for faults in ([], ["--fault", "ignore-cancel"]):
+        with RobotProcess(*faults, binding="nav.toml") as robot, Driver("nav.toml") as driver:
+            goal = drive(driver, [1.5, 0.0, 0.0])
+            time.sleep(1.5)
+            driver.call("cancel", goal=goal)
+            assert driver.ended(goal, 15.0) == "interrupted"
+            assert len(robot.events("twist")) > 0 if faults else True
+            assert driver.moved["base"][0] < 1.2
+
+
+def test_a_path_on_which_base_and_arm_move_at_once_is_no_navigation():
+    with RobotProcess(binding="nav.toml") as robot, Driver("nav.toml") as driver:
+        path = [{"base": [0.0, 0.0, 0.0], "joints": [0.0], "at": 0.0}, {"base": [0.5, 0.0, 0.0], "joints": [0.2], "at": 3.0}]
+        witness = {"joints": ["arm_lift_joint"], "path": path, "clearance": 0.1}
+        goal, _ = driver.start("go", [{"query": "go_to", "args": [{"entity": "counter"}], "verdict": "proven", "witness": witness}])
+        assert "which a navigation cannot" in driver.ended(goal)["failure"]["text"]
+        assert not robot.events("navigate")
+
+
+def test_the_binding_is_compared_with_the_network():
+    check = [DRIVER, "check", str(HERE / "hsr.toml"), "--live"]
+    with RobotProcess():
+        done = subprocess.run(check, capture_output=True, text=True, timeout=60)
+        # Nobody listens to what it says.
+        assert "its server is there" in done.stdout and "✗ /say" in done.stdout and "1 problem" in done.stdout, done.stdout
+    done = subprocess.run(check, capture_output=True, text=True, timeout=60)
+    assert done.returncode == 1 and "nobody serves arm_trajectory_controller" in done.stdout, done.stdout
+
+
 def test_pictures_and_unbound_primitives():
     with RobotProcess(), Driver() as driver:
         time.sleep(1.2)
