@@ -23,9 +23,14 @@ pub(crate) struct Report {
     pub(crate) out: Output,
     collected: Collected,
     is_held: bool,
+    /// Greatest number of findings of a document that people are shown.
+    most: usize,
     errors: usize,
     warnings: usize,
 }
+
+/// Findings of a document that people are shown, unless they ask for more.
+pub(crate) const SHOWN: usize = 100;
 
 impl Report {
     /// Report in a format.
@@ -36,6 +41,7 @@ impl Report {
             out: Output::default(),
             collected: Collected::default(),
             is_held: false,
+            most: SHOWN,
             errors: 0,
             warnings: 0,
         }
@@ -83,7 +89,12 @@ impl Report {
 
     /// Way of writing diagnostics, for other threads.
     pub(crate) fn style(&self) -> Style {
-        Style { format: self.format, colors: self.colors, is_held: self.is_held }
+        Style { format: self.format, colors: self.colors, is_held: self.is_held, most: self.most }
+    }
+
+    /// Shows people so many findings of a document.
+    pub(crate) fn show_at_most(&mut self, most: usize) {
+        self.most = most;
     }
 
     /// Prints diagnostics now, or collects them if the report is held or its format is one document.
@@ -110,7 +121,7 @@ impl Report {
     fn text(&self, diagnostics: &[Diagnostic], sources: &Sources) -> String {
         let goes_to_stderr = self.is_held && self.out.is_used();
         let is_colored = if goes_to_stderr { self.colors.stderr } else { self.colors.stdout };
-        text(self.format, is_colored, diagnostics, sources)
+        text(self.format, is_colored, self.most, diagnostics, sources)
     }
 
     /// Number of errors so far.
@@ -150,6 +161,7 @@ pub(crate) struct Style {
     format: DiagnosticFormat,
     colors: Colors,
     is_held: bool,
+    most: usize,
 }
 
 /// Diagnostics of one document, ready to be printed.
@@ -181,17 +193,30 @@ impl Style {
     pub(crate) fn write(self, diagnostics: &[Diagnostic], sources: &Sources) -> Written {
         let body = match self.is_held || self.format == DiagnosticFormat::Sarif {
             true => Body::Collected(diagnostics.to_vec(), sources.clone()),
-            false => Body::Text(text(self.format, self.colors.stdout, diagnostics, sources)),
+            false => Body::Text(text(self.format, self.colors.stdout, self.most, diagnostics, sources)),
         };
         Written { body, ..Written::unseen(diagnostics) }
     }
 }
 
-fn text(format: DiagnosticFormat, is_colored: bool, diagnostics: &[Diagnostic], sources: &Sources) -> String {
+fn text(
+    format: DiagnosticFormat,
+    is_colored: bool,
+    most: usize,
+    diagnostics: &[Diagnostic],
+    sources: &Sources,
+) -> String {
     match format {
         DiagnosticFormat::Human => {
             let color = if is_colored { render::ColorChoice::On } else { render::ColorChoice::Off };
-            render::human(diagnostics, sources, color, width())
+            // Each one is shown with its source: thousands take minutes, and nobody reads them.
+            let (shown, more) = diagnostics.split_at(most.min(diagnostics.len()));
+            let mut text = render::human(shown, sources, color, width());
+            if !more.is_empty() {
+                let more = count(more.len(), "more finding");
+                text.push_str(&format!("\n… {more}: `--format json` lists all\n"));
+            }
+            text
         }
         DiagnosticFormat::Github => render::github(diagnostics, sources),
         DiagnosticFormat::Json => render::json(diagnostics, sources),

@@ -30,19 +30,26 @@ pub(crate) fn run_as(name: &str, command: &str, arguments: &[OsString]) -> Resul
     run(name, &words)
 }
 
-/// Runs an executable with arguments, and ends as it does.
+/// Runs an executable with arguments, and ends as it does. On Unix it takes the place of this process, so that
+/// signals reach it.
 pub(crate) fn run(name: &str, arguments: &[OsString]) -> Result<Exit, CliError> {
     let program = find(name)?;
-    // A signal for both is handled there; this process waits for the end.
-    let _ = ctrlc::set_handler(|| {});
-    let status = Command::new(&program).args(arguments).status();
-    let status = status
-        .map_err(|error| CliError::Message(format!("cannot start `{}`: {error}", program.display())))?;
-    Ok(match status.code() {
-        Some(0) => Exit::Success,
-        Some(1) => Exit::Findings,
-        Some(3) => Exit::Failed,
-        Some(130) | None => Exit::Interrupted,
-        Some(_) => Exit::CouldNotRun,
-    })
+    let mut command = Command::new(&program);
+    command.args(arguments);
+    let started = |error| CliError::Message(format!("cannot start `{}`: {error}", program.display()));
+    #[cfg(unix)]
+    {
+        Err(started(std::os::unix::process::CommandExt::exec(&mut command)))
+    }
+    #[cfg(not(unix))]
+    {
+        let status = command.status().map_err(started)?;
+        Ok(match status.code() {
+            Some(0) => Exit::Success,
+            Some(1) => Exit::Findings,
+            Some(3) => Exit::Failed,
+            Some(130) | None => Exit::Interrupted,
+            Some(_) => Exit::CouldNotRun,
+        })
+    }
 }

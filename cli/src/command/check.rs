@@ -20,7 +20,7 @@ use crate::error::{CliError, Exit};
 use crate::flags::{DocumentArgs, FormatArgs, JobArgs, ResultArgs, SessionArgs};
 use crate::output::{Colors, count, count_irregular, note, replace_file};
 use crate::projects::Projects;
-use crate::report::{Progress, Report, Style, Written};
+use crate::report::{Progress, Report, SHOWN, Style, Written};
 use crate::result_file::{DoneResult, ResultFile};
 use crate::shared_sessions::{SharedSession, SharedSessions};
 
@@ -45,6 +45,9 @@ pub(crate) struct CheckArgs {
     deny_deferred: bool,
     #[command(flatten)]
     format: FormatArgs,
+    /// Findings of a document that are shown to people; other formats have all
+    #[arg(long, value_name = "NUMBER", default_value_t = SHOWN)]
+    findings: usize,
     #[command(flatten)]
     jobs: JobArgs,
     #[command(flatten)]
@@ -82,6 +85,7 @@ pub(crate) fn run(args: &CheckArgs, colors: Colors) -> Result<Exit, CliError> {
         if args.fixes.is_fixing() && args.documents.paths.iter().any(|path| path.as_os_str() == "-") {
             report.hold();
         }
+        report.show_at_most(args.findings);
         check(args, report)
     })
 }

@@ -129,6 +129,16 @@ fn reads_standard_input() {
 }
 
 #[test]
+fn shows_people_as_many_findings_as_they_ask_for() {
+    let steps: String = (0..150).map(|at| format!("    fly{at}()\n")).collect();
+    let place = Place::new("check_many").file("many.motet", format!("policy p for hsr {{\n{steps}}}\n"));
+    let many = "check many.motet --robot hsr";
+    place.run(many).check(1, &["out:`fly99`", "out:… 50 more findings", "err:150 errors"]);
+    place.run(&format!("{many} --findings 3")).check(1, &["out:`fly2`", "out:… 147 more findings"]);
+    place.run(&format!("{many} --format json")).check(1, &["out:`fly149`"]);
+}
+
+#[test]
 fn refuses_what_is_too_large() {
     let large = vec![b' '; 16 * 1024 * 1024 + 1];
     let place = Place::new("check_large").file("large.motet", &large).file("lines.jsonl", &large);

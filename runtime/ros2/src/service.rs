@@ -220,3 +220,62 @@ impl Server {
         .map(|_| ())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::layout::Distribution;
+    use crossbeam_channel::unbounded;
+    use serde_json::json;
+    use std::time::{Duration, Instant};
+
+    /// One client and one server in two participants of this process.
+    fn calls(middleware: Middleware, domain: u16) {
+        let layouts = Layouts::of(Distribution::Jazzy, None).unwrap();
+        let interface = Interface { name: "std_srvs/SetBool", kind: "srv", end: "" };
+        let ((asks, asked), (answers, answered)) = (unbounded(), unbounded());
+        let (robot, own) = (Dds::join(domain, &[], asks).unwrap(), Dds::join(domain, &[], answers).unwrap());
+        let server = Server::new(&robot, middleware, "/light", interface, 5).unwrap();
+        let mut client = Client::new(&own, middleware, "/light", interface, 7).unwrap();
+        let begun = Instant::now();
+        let is_there =
+            |endpoints: &[crate::dds::Endpoint], topic: &str| endpoints.iter().any(|one| one.topic == topic);
+        while !is_there(&own.readers(), &client.topics[0])
+            || !is_there(&own.writers(), &client.topics[1])
+            || !is_there(&robot.readers(), &client.topics[1])
+        {
+            assert!(begun.elapsed() < Duration::from_secs(20), "nobody was discovered");
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        std::thread::sleep(Duration::from_millis(200));
+        let tickets = [true, false].map(|on| client.call(&layouts, &json!({"data": on})).unwrap());
+        let mut requests: Vec<(Asked, Message)> = Vec::new();
+        while requests.len() < 2 {
+            let received = asked.recv_timeout(Duration::from_secs(5)).unwrap();
+            requests.push(server.hear(&layouts, &received).unwrap());
+        }
+        // The later request is answered first, and twice.
+        for (request, message) in requests.iter().rev().chain(requests.last()) {
+            let answer = json!({"success": message.is_true("data"), "message": "done"});
+            server.answer(&layouts, *request, &answer).unwrap();
+        }
+        let mut heard = Vec::new();
+        for _ in 0..3 {
+            let received = answered.recv_timeout(Duration::from_secs(5)).unwrap();
+            heard.extend(client.hear(&layouts, &received).unwrap());
+        }
+        let heard: Vec<(Ticket, bool)> =
+            heard.iter().map(|(at, message)| (*at, message.is_true("success"))).collect();
+        assert_eq!(heard, [(tickets[1], false), (tickets[0], true)]);
+    }
+
+    #[test]
+    fn a_response_finds_its_call_as_fast_dds_writes_it() {
+        calls(Middleware::Fastdds, 71);
+    }
+
+    #[test]
+    fn a_response_finds_its_call_as_cyclone_dds_writes_it() {
+        calls(Middleware::Cyclonedds, 72);
+    }
+}
