@@ -131,11 +131,14 @@ pub(crate) async fn serve(args: AgentArgs) -> Result<u8, String> {
 /// Does something again and again, whatever the link does. A reason is printed once until it changes.
 async fn forever<F>(agent: Arc<Agent>, what: &str, task: impl Fn(Arc<Agent>) -> F)
 where
-    F: Future<Output = Result<(), String>>,
+    F: Future<Output = Result<(), String>> + Send + 'static,
 {
     let mut told = String::new();
     loop {
-        if let Err(why) = task(Arc::clone(&agent)).await
+        // On a task of its own a fault inside ends this round, and not the agent.
+        let done = tokio::spawn(task(Arc::clone(&agent))).await;
+        let done = done.unwrap_or_else(|_| Err("it failed inside, and begins again".to_owned()));
+        if let Err(why) = done
             && why != told
         {
             eprintln!("motet-fleet: {what}: {}", why.escape_debug());

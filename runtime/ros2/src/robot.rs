@@ -10,12 +10,14 @@ use crate::perceive::{CameraFeed, Feed, detections};
 use crate::service::{Client, Interface, Ticket};
 use crate::state::Body;
 use bytes::Bytes;
-use crossbeam_channel::{Receiver, unbounded};
+use crossbeam_channel::{Receiver, bounded};
 use motet_host::remote::protocol::DetectedThing;
 use serde_json::Value;
 use std::collections::{BTreeMap, HashMap};
 use std::time::{Duration, Instant};
 
+/// Messages that wait to be read. Beyond that DDS keeps the last ones of each topic.
+const WAITING: usize = 4_096;
 /// Time between two looks at which endpoints DDS knows.
 const LOOKS: Duration = Duration::from_millis(200);
 
@@ -79,7 +81,7 @@ impl Robot {
     ///
     /// A type without a layout, an expression that is wrong, or why DDS does not start.
     pub(crate) fn open(binding: Binding, layouts: Layouts) -> Result<Self, String> {
-        let (sender, received) = unbounded();
+        let (sender, received) = bounded(WAITING);
         let dds = Dds::join(binding.domain(), &binding.ros.networks, sender)?;
         let cameras = binding.cameras.iter().map(|_| CameraFeed::default()).collect();
         let mut robot = Self {
