@@ -30,8 +30,8 @@ pub(crate) fn run_as(name: &str, command: &str, arguments: &[OsString]) -> Resul
     run(name, &words)
 }
 
-/// Runs an executable with arguments, and ends as it does. On Unix it takes the place of this process, so that
-/// signals reach it.
+/// Runs an executable with arguments, and ends as it does. On Unix it takes the place of this process, so
+/// that signals reach it.
 pub(crate) fn run(name: &str, arguments: &[OsString]) -> Result<Exit, CliError> {
     let program = find(name)?;
     let mut command = Command::new(&program);
