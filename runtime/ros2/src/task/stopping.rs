@@ -20,11 +20,11 @@ impl Task {
         let parts = self.parts();
         let stopping = self.stopping.as_mut()?;
         let is_still = around.robot.body.is_still(&parts, &around.robot.binding);
-        if is_still && (self.running.is_empty() || stopping.since.elapsed() > HEEDS) {
-            if !self.running.is_empty() {
-                // The robot stands, but a server has not said the end of its goal.
-                self.running.clear();
-            }
+        // A server that has not ended its goal could still begin to move: it gets another one before.
+        let is_over =
+            self.running.is_empty() || (stopping.is_told && stopping.stopped.elapsed() > STOPS_AGAIN);
+        if is_still && is_over {
+            self.running.clear();
             return Some(match &stopping.ending {
                 Ending::Cancel => Finish::Ended(Outcome::Interrupted),
                 Ending::Fail(failure) => Finish::Ended(Outcome::Failure(failure.clone())),
@@ -38,9 +38,9 @@ impl Task {
                 let moving = around.robot.body.fastest(&parts).map_or_else(String::new, |(joint, speed)| {
                     format!("; `{joint}` moves with {speed:.3} per second")
                 });
-                self.feedback.push(format!(
-                    "the robot moves on after the cancel{moving}; trajectories that stand still are sent"
-                ));
+                let what = if is_still { "a server has not ended its goal" } else { "the robot moves on" };
+                self.feedback
+                    .push(format!("{what} after the cancel{moving}; trajectories that stand still are sent"));
             }
             stand_still(around.robot, &self.parts);
         }
