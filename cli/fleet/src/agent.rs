@@ -170,8 +170,11 @@ impl Agent {
     async fn carry_out(&self, message: &Message) -> Result<(), String> {
         let words = match open(&message.payload, &self.trust, &self.robot) {
             Ok(words) => words,
-            // An order that is too old may have begun before: its folder says so.
-            Err(why) => return self.refuse(message, &why).await,
+            // An order whose time is over may have begun before: then it goes on as it was when it was opened.
+            Err(why) => match self.begun(&message.payload) {
+                Some(words) => words,
+                None => return self.refuse(message, &why).await,
+            },
         };
         let id = words.id.clone();
         let folder = OrderFolder(self.root.join("orders").join(&id));
@@ -191,11 +194,15 @@ impl Agent {
         message.double_ack().await.map_err(|error| error.to_string())
     }
 
+    /// Words of an order that has begun on this robot, by the id that a message claims.
+    fn begun(&self, payload: &[u8]) -> Option<Words> {
+        let folder = OrderFolder(self.root.join("orders").join(claimed_id(payload)?));
+        serde_json::from_slice(&std::fs::read(folder.0.join("order.json")).ok()?).ok()
+    }
+
     async fn refuse(&self, message: &Message, why: &str) -> Result<(), String> {
         eprintln!("motet-fleet: an order is refused: {}", why.escape_debug());
-        let id = claimed_id(&message.payload);
-        // An order that ran before its time was over keeps its result.
-        if let Some(id) = id.filter(|id| !OrderFolder(self.root.join("orders").join(id)).has_order()) {
+        if let Some(id) = claimed_id(&message.payload) {
             self.tell_result(&id, &json!({"state": "refused", "why": why})).await?;
         }
         message.double_ack().await.map_err(|error| error.to_string())
