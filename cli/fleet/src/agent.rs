@@ -170,7 +170,7 @@ impl Agent {
     async fn carry_out(&self, message: &Message) -> Result<(), String> {
         let words = match open(&message.payload, &self.trust, &self.robot) {
             Ok(words) => words,
-            // An order whose time is over may have begun before: then it goes on as it was when it was opened.
+            // An order whose time is over may have begun before: then it goes on as it was when it came.
             Err(why) => match self.begun(&message.payload) {
                 Some(words) => words,
                 None => return self.refuse(message, &why).await,
