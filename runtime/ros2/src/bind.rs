@@ -1,5 +1,6 @@
 //! The binding of a robot: a TOML file that says which actions, services and topics carry out its primitives.
 
+use crate::group::MoveGroup;
 use crate::layout::Distribution;
 use crate::service::Middleware;
 use serde::Deserialize;
@@ -41,6 +42,8 @@ pub(crate) struct Binding {
     pub(crate) controllers: Vec<Controller>,
     #[serde(default)]
     pub(crate) navigation: Option<Navigation>,
+    #[serde(default)]
+    pub(crate) move_group: Option<MoveGroup>,
     #[serde(default)]
     pub(crate) gripper: Option<Gripper>,
     #[serde(default)]
@@ -473,6 +476,9 @@ impl Binding {
                 ));
             }
         }
+        if binding.move_group.as_ref().is_some_and(|bound| bound.link.is_none() && !bound.grasps.is_empty()) {
+            return Err(format!("{name}: the grasps of [move_group] need a `link`"));
+        }
         binding.resolve_names();
         Ok(binding)
     }
@@ -494,6 +500,7 @@ impl Binding {
             full(&mut navigation.action);
             navigation.stop.iter_mut().for_each(full);
         }
+        self.move_group.iter_mut().for_each(|one| full(&mut one.action));
         self.gripper.iter_mut().for_each(|one| full(&mut one.action));
         for step in self.primitives.values_mut().flat_map(|one| &mut one.steps) {
             step.action.iter_mut().for_each(full);

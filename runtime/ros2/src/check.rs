@@ -2,13 +2,14 @@
 
 use crate::bind::{Binding, CallKind, Deed};
 use crate::layout::Layouts;
-use crate::plan::Limits;
+use crate::plan::Card;
 use crate::robot::Robot;
 use motet_project::{Discard, open_robot};
 use motet_robots::scene::Scene;
 use motet_syntax::Sources;
+use std::collections::BTreeMap;
 use std::io::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// Time in which DDS discovers the nodes of a robot.
@@ -28,20 +29,26 @@ pub(crate) fn read_scene(name: &str) -> Result<Scene, String> {
     motet_project::read_scene(name, &mut Sources::default(), &mut Discard).map_err(|error| error.to_string())
 }
 
-/// Limits of the joints of a robot.
+/// Data of the card of a robot, and `program`, the command that plans its paths.
 ///
 /// # Errors
 ///
 /// There is no such robot, or it has errors.
-pub(crate) fn limits(robot: &str) -> Result<Limits, String> {
+pub(crate) fn read_card(robot: &str, program: Option<PathBuf>) -> Result<Card, String> {
     let opened = open_robot(robot, &mut Sources::default(), &mut Discard);
-    let (_, urdf) = opened.map_err(|error| error.to_string())?;
+    let (card, urdf) = opened.map_err(|error| error.to_string())?;
     let joints = urdf.into_iter().flat_map(|urdf| urdf.joints);
     let limited = joints.filter_map(|joint| {
         let limits = joint.limits?;
         Some((joint.name.to_string(), (limits.lower, limits.upper)))
     });
-    Ok(limited.collect())
+    let limits = limited.collect();
+    let mut postures = BTreeMap::new();
+    for (name, posture) in &card.postures {
+        let joints = posture.iter().map(|(joint, position)| (joint.to_string(), *position));
+        postures.insert(name.to_string(), joints.collect());
+    }
+    Ok(Card { name: robot.to_owned(), program, limits, postures, clearance: card.clearance })
 }
 
 /// Lines about a binding, and the number of problems.
@@ -169,6 +176,12 @@ fn check_joints(binding: &Binding, joints: &[String], report: &mut Report) {
         if !joints.iter().any(|own| own == card) {
             report.wrong(joint, "has a controller, and the URDF has no such joint");
         }
+    }
+    match &binding.move_group {
+        Some(bound) => {
+            report.good("motions without a path", &format!("{} for {}", bound.action, bound.group))
+        }
+        None => report.none("motions without a path", "fail"),
     }
     match (
         &binding.base.odometry,

@@ -2,10 +2,10 @@
 
 use crate::lines::Line;
 use crate::observe::Found;
-use crate::plan::Limits;
+use crate::plan::Card;
 use crate::robot::{Heard, Robot};
 use crate::state::Parts;
-use crate::task::{Finish, Surroundings, Task, stand_still, whole};
+use crate::task::{Finish, Surroundings, Task, stand_still};
 use crate::world::{Place, World};
 use crossbeam_channel::{Receiver, select, tick};
 use motet_graph::Value as Argument;
@@ -19,7 +19,6 @@ use motet_runtime::{Answer, Capabilities, FailureReport, GoalId, Pattern, Primit
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, HashMap};
 use std::io::Write;
-use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 /// Time between two looks at what runs.
@@ -50,9 +49,7 @@ enum Goal {
 pub(crate) struct Driver<W> {
     robot: Robot,
     world: World,
-    card: String,
-    planner: Option<PathBuf>,
-    limits: Limits,
+    card: Card,
     out: W,
     run: Option<String>,
     fails: HashMap<String, Vec<String>>,
@@ -69,23 +66,14 @@ pub(crate) struct Driver<W> {
 }
 
 impl<W: Write> Driver<W> {
-    /// A driver of a robot in a room. `card` is the robot as the command line names it, with the limits of
-    /// its joints; `planner` is the command that plans paths.
-    pub(crate) fn new(
-        robot: Robot,
-        world: World,
-        (card, limits): (String, Limits),
-        planner: Option<PathBuf>,
-        out: W,
-    ) -> Self {
+    /// A driver of a robot in a room.
+    pub(crate) fn new(robot: Robot, world: World, card: Card, out: W) -> Self {
         let started = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).unwrap_or_default();
         let now = Instant::now();
         Self {
             robot,
             world,
             card,
-            planner,
-            limits,
             out,
             run: None,
             fails: HashMap::new(),
@@ -166,13 +154,8 @@ impl<W: Write> Driver<W> {
                 }
                 self.detections.clone_from(things);
             }
-            let mut around = Surroundings {
-                robot: &mut self.robot,
-                world: &mut self.world,
-                card: &self.card,
-                planner: self.planner.as_ref(),
-                limits: &self.limits,
-            };
+            let mut around =
+                Surroundings { robot: &mut self.robot, world: &mut self.world, card: &self.card };
             for goal in self.goals.values_mut() {
                 if let Goal::Running(task) = goal {
                     task.hear(&mut around, news);
@@ -186,13 +169,8 @@ impl<W: Write> Driver<W> {
         let mut reports = Vec::new();
         for (number, goal) in &mut self.goals {
             let Goal::Running(task) = goal else { continue };
-            let mut around = Surroundings {
-                robot: &mut self.robot,
-                world: &mut self.world,
-                card: &self.card,
-                planner: self.planner.as_ref(),
-                limits: &self.limits,
-            };
+            let mut around =
+                Surroundings { robot: &mut self.robot, world: &mut self.world, card: &self.card };
             let finish = task.advance(&mut around);
             let id = GoalId::from_number(*number);
             for text in task.feedback.drain(..) {
@@ -239,7 +217,7 @@ impl<W: Write> Driver<W> {
         let is_due = self.stopping.values().any(|sent| sent.elapsed() > Duration::from_millis(500));
         if is_due && self.goals.values().all(|goal| !matches!(goal, Goal::Running(_))) {
             self.stopping.values_mut().for_each(|sent| *sent = Instant::now());
-            let parts = whole(&self.robot);
+            let parts = self.robot.parts();
             stand_still(&mut self.robot, &parts);
         }
         Vec::new()
@@ -362,7 +340,7 @@ impl<W: Write> Driver<W> {
                 if !self.with_task(goal, Task::safe_stop) {
                     self.goals.entry(goal.number()).or_insert(Goal::Stopped);
                     self.stopping.insert(goal.number(), Instant::now());
-                    let parts = whole(&self.robot);
+                    let parts = self.robot.parts();
                     if !self.robot.body.is_still(&Parts::All, &self.robot.binding) {
                         stand_still(&mut self.robot, &parts);
                     }
@@ -476,13 +454,7 @@ impl<W: Write> Driver<W> {
     /// Does something with a task that runs; `false` if the goal does not run.
     fn with_task(&mut self, goal: GoalId, act: impl FnOnce(&mut Task, &mut Surroundings<'_>)) -> bool {
         let Some(Goal::Running(task)) = self.goals.get_mut(&goal.number()) else { return false };
-        let mut around = Surroundings {
-            robot: &mut self.robot,
-            world: &mut self.world,
-            card: &self.card,
-            planner: self.planner.as_ref(),
-            limits: &self.limits,
-        };
+        let mut around = Surroundings { robot: &mut self.robot, world: &mut self.world, card: &self.card };
         act(task, &mut around);
         true
     }

@@ -6,6 +6,7 @@ mod cdr;
 mod check;
 mod dds;
 mod driver;
+mod group;
 mod joint;
 mod layout;
 mod lines;
@@ -120,12 +121,11 @@ fn drive(args: DriveArgs) -> Result<u8, String> {
     let card = robot_of(&binding, args.robot.as_deref())?;
     let layouts = Layouts::of(binding.ros.distribution, args.layouts.as_deref())?;
     let scene = check::read_scene(&args.scene)?;
-    let limits = check::limits(&card)?;
+    let card = check::read_card(&card, args.motet.or_else(|| on_path("motet")))?;
     let robot = robot::Robot::open(binding, layouts)?;
-    let planner = args.motet.or_else(|| on_path("motet"));
     let lines = lines::read_lines(BufReader::new(std::io::stdin()));
     let out = std::io::stdout().lock();
-    driver::Driver::new(robot, world::World::new(scene), (card, limits), planner, out).serve(&lines)?;
+    driver::Driver::new(robot, world::World::new(scene), card, out).serve(&lines)?;
     Ok(0)
 }
 

@@ -2,6 +2,7 @@
 
 use crate::tf::Planar;
 use motet_graph::{Value, Witness};
+use motet_robots::clearance::{Clearance, ClearanceOverride};
 use motet_robots::scene::{Scene, write};
 use motet_runtime::PlannedMotion;
 use std::collections::BTreeMap;
@@ -15,6 +16,34 @@ pub(crate) type Limits = BTreeMap<String, (f64, f64)>;
 /// Error of a measured joint beyond its limit in rad or m.
 const NEAR: f64 = 0.02;
 
+/// What the card of the robot says, and the command that plans its paths.
+#[derive(Clone, Debug)]
+pub(crate) struct Card {
+    /// Robot as the command line names it.
+    pub(crate) name: String,
+    /// The command `motet`, if it was found.
+    pub(crate) program: Option<PathBuf>,
+    pub(crate) limits: Limits,
+    /// Positions of joints by their names in the card, by the name of the posture.
+    pub(crate) postures: BTreeMap<String, Vec<(String, f64)>>,
+    /// Distances that the motions of the robot keep from obstacles.
+    pub(crate) clearance: Clearance,
+}
+
+/// Why there is no path.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct NoPath {
+    pub(crate) says: String,
+    /// True if it is certain that there is none, and not only that none was found.
+    pub(crate) is_certified: bool,
+}
+
+impl From<String> for NoPath {
+    fn from(says: String) -> Self {
+        Self { says, is_certified: false }
+    }
+}
+
 /// Question that another thread answers: does a motion exist from here?
 #[derive(Clone, Debug)]
 pub(crate) struct Question {
@@ -26,25 +55,29 @@ pub(crate) struct Question {
 }
 
 impl Question {
-    /// Question for a motion from a pose of the base and positions of joints by their names in the card.
+    /// Question for a motion from a pose of the base and positions of joints by their names in the card. The
+    /// path is to keep at least `clearance` m from obstacles. `None` without a command that plans.
     #[must_use]
     pub(crate) fn new(
-        program: PathBuf,
-        robot: &str,
+        card: &Card,
         scene: &Scene,
         motion: String,
         base: Planar,
         joints: &BTreeMap<String, f64>,
-        limits: &Limits,
-    ) -> Self {
+        clearance: f64,
+    ) -> Option<Self> {
+        let (program, limits) = (card.program.clone()?, &card.limits);
         let mut scene = scene.clone();
+        let Clearance { base_m, arm_m } = scene.clearance.over(card.clearance);
+        scene.clearance =
+            ClearanceOverride { base_m: Some(base_m.max(clearance)), arm_m: Some(arm_m.max(clearance)) };
         scene.robot.base = [base.x, base.y, base.yaw];
         scene.robot.joints.extend(joints.iter().map(|(name, value)| {
             // A joint that is measured a little beyond its limit is at it.
             let near = limits.get(name).filter(|(low, high)| (low - NEAR..=high + NEAR).contains(value));
             (name.as_str().into(), near.map_or(*value, |(low, high)| value.clamp(*low, *high)))
         }));
-        Self { program, robot: robot.to_owned(), scene, motion }
+        Some(Self { program, robot: card.name.clone(), scene, motion })
     }
 
     /// Asks, and waits for the answer.
@@ -52,7 +85,7 @@ impl Question {
     /// # Errors
     ///
     /// The reason that no motion exists, or why nobody could say.
-    pub(crate) fn ask(&self) -> Result<Witness, String> {
+    pub(crate) fn ask(&self) -> Result<Witness, NoPath> {
         static NUMBER: AtomicU64 = AtomicU64::new(0);
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);
         let path = std::env::temp_dir().join(format!("motet-ros2-{}-{number}.json", std::process::id()));
@@ -70,11 +103,16 @@ impl Question {
             format!("`motet feasible` has no answer: {}", said.lines().next().unwrap_or("it printed nothing"))
         })?;
         match answer.get("witness") {
-            Some(witness) => witness_of(witness).ok_or_else(|| "`motet feasible` wrote no path".to_owned()),
+            Some(witness) => {
+                witness_of(witness).ok_or_else(|| "`motet feasible` wrote no path".to_owned().into())
+            }
             None => {
-                // An error in the scene comes as a finding.
+                // An error in the motion or the scene comes as a finding with a code.
                 let says = answer.get("says").or(answer.get("message")).and_then(serde_json::Value::as_str);
-                Err(says.unwrap_or("no motion was found").to_owned())
+                let says = says.unwrap_or("no motion was found").to_owned();
+                let certified = answer.get("certified").and_then(serde_json::Value::as_bool);
+                let is_certified = certified.unwrap_or(answer.get("code").is_some());
+                Err(NoPath { says, is_certified })
             }
         }
     }

@@ -131,6 +131,9 @@ impl Robot {
                 self.writer(stop, &navigation.stop_type)?;
             }
         }
+        if let Some(bound) = &binding.move_group {
+            self.action(&bound.action, "moveit_msgs/MoveGroup")?;
+        }
         if let Some(gripper) = &binding.gripper {
             self.action(&gripper.action, &gripper.type_name)?;
         }
@@ -500,6 +503,13 @@ impl Robot {
         };
         let at = at.ok_or_else(|| format!("no camera `{}` is bound", camera.unwrap_or_default()))?;
         self.cameras[at].look(&cameras[at], &self.binding, &self.layouts, &self.body.frames)
+    }
+
+    /// Joints of all controllers by their names in ROS, and `true` if the robot drives.
+    #[must_use]
+    pub(crate) fn parts(&self) -> (Vec<String>, bool) {
+        let joints = self.binding.controllers.iter().flat_map(|controller| controller.joints.iter().cloned());
+        (joints.collect(), self.binding.base.odometry.is_some())
     }
 
     /// Prints a problem once.

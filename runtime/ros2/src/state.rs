@@ -27,7 +27,7 @@ pub(crate) struct Body {
     /// Joints by their names in ROS.
     joints: BTreeMap<String, JointState>,
     base: Option<BaseState>,
-    /// Greatest standard deviation of the localisation in the plane in m.
+    /// Greatest standard deviation of the localisation in the plane in m; infinite if it says none.
     pub(crate) sigma: Option<f64>,
     pub(crate) frames: Frames,
 }
@@ -84,9 +84,11 @@ impl Body {
     /// Takes in a `geometry_msgs/PoseWithCovarianceStamped`: how exactly the robot knows its place.
     pub(crate) fn hear_localization(&mut self, message: &Message) {
         let covariance = message.numbers("pose.covariance");
-        let variance = [0, 7].map(|at| covariance.get(at).copied().unwrap_or(f64::NAN));
-        let greatest = variance[0].max(variance[1]);
-        self.sigma = (greatest.is_finite() && greatest >= 0.0).then(|| greatest.sqrt());
+        let [xx, xy, yy] = [0, 1, 7].map(|at| covariance.get(at).copied().unwrap_or(f64::NAN));
+        // The greater eigenvalue is the variance in the direction in which the place is least certain.
+        let greatest = (xx + yy) / 2.0 + ((xx - yy) / 2.0).hypot(xy);
+        let is_one = greatest.is_finite() && xx >= 0.0 && yy >= 0.0;
+        self.sigma = Some(if is_one { greatest.sqrt() } else { f64::INFINITY });
     }
 
     /// Position of a joint by its name in ROS, if it is fresh.

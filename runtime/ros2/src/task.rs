@@ -1,16 +1,17 @@
 //! A goal of the host as a row of steps: trajectories, navigations, the hand, and calls.
 
+mod move_group;
 mod moving;
 mod stopping;
 
-pub(crate) use stopping::{stand_still, whole};
+pub(crate) use stopping::stand_still;
 
 use crate::action::{End, News, Uuid};
 use crate::bind::{Call, CallKind, Deed, Opening, Step};
 use crate::cdr::Message;
 use crate::joint::Part;
 use crate::observe::Found;
-use crate::plan::Limits;
+use crate::plan::{Card, NoPath};
 use crate::robot::{Heard, Robot};
 use crate::service::Ticket;
 use crate::state::Parts;
@@ -22,7 +23,6 @@ use motet_graph::{Value as Argument, Witness};
 use motet_runtime::{Command, FailureReport, Outcome};
 use serde_json::{Value, json};
 use std::collections::VecDeque;
-use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -30,10 +30,7 @@ use std::time::{Duration, Instant};
 pub(crate) struct Surroundings<'a> {
     pub(crate) robot: &'a mut Robot,
     pub(crate) world: &'a mut World,
-    /// Robot as the command line names it, and the command that plans.
-    pub(crate) card: &'a str,
-    pub(crate) planner: Option<&'a PathBuf>,
-    pub(crate) limits: &'a Limits,
+    pub(crate) card: &'a Card,
 }
 
 /// A part of a motion.
@@ -41,6 +38,8 @@ pub(crate) struct Surroundings<'a> {
 enum Move {
     Follow(Part, Vec<String>),
     Navigate([f64; 3]),
+    /// Goal of MoveGroup.
+    Group(Value),
 }
 
 /// A goal of an action server that runs for a task.
@@ -63,7 +62,7 @@ enum Phase {
     },
     /// Another thread looks for a path.
     Planning {
-        answer: Receiver<Box<Result<Witness, String>>>,
+        answer: Receiver<Box<Result<Witness, NoPath>>>,
     },
     Acting,
     Calling {
@@ -118,6 +117,8 @@ pub(crate) struct Task {
     phase: Phase,
     /// Path of the last way there, with the names of its joints.
     path: Option<(Part, Vec<String>)>,
+    /// Positions of the joints before MoveGroup moved them, for the way back.
+    before: Option<Vec<(String, f64)>>,
     width: f64,
     parts: (Vec<String>, bool),
     result: Option<Argument>,
@@ -143,6 +144,7 @@ impl Task {
             running: Vec::new(),
             phase: Phase::Next,
             path: None,
+            before: None,
             width: 0.0,
             parts: (Vec::new(), false),
             result: None,
@@ -273,18 +275,14 @@ impl Task {
         }
         let name = around.robot.actions[action].name.clone();
         match end {
+            End::Succeeded(result) if move_group::is_failure(result) => {
+                self.fail(around, format!("{name}: {}", move_group::error(result)));
+            }
             End::Succeeded(_) => {}
             // A hand that closes on a thing stalls, which some controllers report as an abort.
             End::Aborted(result) if running.is_gripper && result.is_true("stalled") => {}
             End::Aborted(result) => {
-                let code = ["error_code", "error_string", "error_msg"].map(|field| match result.get(field) {
-                    Some(Message::Text(text)) => text.clone(),
-                    Some(Message::Int(code)) => code.to_string(),
-                    Some(Message::Uint(code)) => code.to_string(),
-                    _ => String::new(),
-                });
-                let code = code.iter().filter(|part| !part.is_empty()).cloned().collect::<Vec<_>>().join(" ");
-                self.fail(around, format!("{name} aborted: {code}"));
+                self.fail(around, format!("{name} aborted: {}", move_group::error(result)));
             }
             End::Rejected => self.fail(around, format!("{name} refused the goal")),
             End::Canceled => self.fail(around, format!("somebody canceled the goal of {name}")),
@@ -390,7 +388,7 @@ impl Task {
                 match *answer {
                     Ok(witness) => self.take_path(around, &witness),
                     Err(_) if looks => self.step_done(),
-                    Err(why) => self.fail(around, why),
+                    Err(why) => self.plan_by_move_group(around, &why),
                 }
                 true
             }

@@ -30,6 +30,13 @@ class RobotProcess:
         events = [json.loads(line) for line in self.log if line.endswith("\n")]
         return [event for event in events if name in (None, event["event"])]
 
+    def wait(self, name, secs=20.0):
+        """True if something happens in time."""
+        end = time.monotonic() + secs
+        while not self.events(name) and time.monotonic() < end:
+            time.sleep(0.02)
+        return bool(self.events(name))
+
     def close(self):
         self.process.send_signal(signal.SIGTERM)
         self.process.wait(timeout=10)
@@ -44,8 +51,8 @@ class RobotProcess:
 class Driver:
     """`motet-ros2 drive`, and what it reported."""
 
-    def __init__(self, binding="hsr.toml", run="test", greet=True):
-        command = [DRIVER, "drive", str(HERE / binding), "--robot", "hsr", "--scene", "kitchen", "--motet", MOTET]
+    def __init__(self, binding="hsr.toml", run="test", greet=True, motet=MOTET):
+        command = [DRIVER, "drive", str(HERE / binding), "--robot", "hsr", "--scene", "kitchen", "--motet", motet]
         self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         self.lines, self.number, self.reports, self.goals = queue.Queue(), 0, [], 0
         threading.Thread(target=self.read, daemon=True).start()
@@ -109,6 +116,12 @@ class Driver:
         self.goals += 1
         command = {"primitive": primitive, "args": list(args.items()), "uses": [], "deadline_secs": 60.0, "motions": list(motions)}
         return self.goals, self.call("start", goal=self.goals, command=command)
+
+    def move(self, query, *args):
+        """Starts a motion without a path."""
+        goal, answer = self.start("home", [{"query": query, "args": list(args), "verdict": "open"}])
+        assert "error" not in answer, answer
+        return goal
 
     def lift(self, height, secs=1.0, begin=0.0, clearance=0.1):
         """Starts a motion of the arm's lift."""

@@ -4,7 +4,7 @@ odometry, tf, pictures and detections, in front of a body without physics or of 
 Faults of all its action servers: `reject`, `ignore-cancel` (goes on after a cancel that it promised to heed), `deaf`
 (a new trajectory does not stop the old one either), `die` (ends in the middle of a motion), `silent` (never answers
 a goal), `mute` (and never tells its state), `late` (answers after 3 s), `twice` (answers everything twice, the second
-time otherwise), `other-goal` (answers calls that nobody made).
+time otherwise), `other-goal` (answers calls that nobody made). MoveGroup finds no plan with `no-plan`.
 """
 
 import argparse
@@ -19,7 +19,8 @@ import tomllib
 from cyclone import ABORTED, CANCELED, RELIABLE, LATCHED, SUCCEEDED, ActionServer, Node, Types, stamp
 
 # Where the joints of a body without physics begin, apart from 0.
-START = {"arm_roll_joint": -1.57, "wrist_flex_joint": -1.57, "hand_motor_joint": 0.0}
+START = {"arm_roll_joint": -1.57, "wrist_flex_joint": -1.57, "hand_motor_joint": 0.0, "panda_joint2": -0.785,
+         "panda_joint4": -2.356, "panda_joint6": 1.571, "panda_joint7": 0.785}
 
 
 def spline(points, names, time_now):
@@ -174,11 +175,12 @@ class Robot:
         self.begun, self.last = time.monotonic(), {}
         publish = self.node.publisher
         self.joint_states = publish(binding["joints"]["topic"], "sensor_msgs/JointState")
-        self.odometry = publish(binding["base"]["odometry"], "nav_msgs/Odometry")
+        base = binding.get("base", {})
+        self.odometry = publish(base["odometry"], "nav_msgs/Odometry") if "odometry" in base else None
         self.tf, self.tf_static = publish("/tf", "tf2_msgs/TFMessage"), publish("/tf_static", "tf2_msgs/TFMessage", LATCHED)
         self.localization = None
-        if "localization" in binding["base"]:
-            self.localization = publish(binding["base"]["localization"], "geometry_msgs/PoseWithCovarianceStamped")
+        if "localization" in base:
+            self.localization = publish(base["localization"], "geometry_msgs/PoseWithCovarianceStamped")
         self.sigma = sigma
         self.detections = publish(binding["detections"]["topic"], "vision_msgs/Detection3DArray") if "detections" in binding else None
         self.camera = None
@@ -190,6 +192,8 @@ class Robot:
             self.serve_trajectories(controller)
         if "navigation" in binding:
             self.serve_navigation(binding["navigation"]["action"])
+        if "move_group" in binding:
+            self.serve_move_group(binding["move_group"].get("action", "/move_action"))
         if "gripper" in binding:
             self.serve_gripper(binding["gripper"])
         self.hand = None
@@ -289,6 +293,37 @@ class Robot:
         self.servers.append(server)
         self.twists = self.node.subscription("/cmd_vel", "geometry_msgs/Twist")
 
+    def serve_move_group(self, key):
+        """MoveGroup: joints of a goal go straight to where it wants them; a pose has one solution."""
+        def begin(goal):
+            request, options = goal.goal.request, goal.goal.planning_options
+            wanted = [{one.joint_name: one.position for one in goals.joint_constraints} for goals in request.goal_constraints]
+            poses = [[goals.position_constraints[0].link_name, goals.position_constraints[0].header.frame_id,
+                      *vars(goals.position_constraints[0].constraint_region.primitive_poses[0].position).values(),
+                      *vars(goals.orientation_constraints[0].orientation).values()]
+                     for goals in request.goal_constraints if goals.position_constraints]
+            self.note("move_group", id=list(goal.id), group=request.group_name, joints=wanted, poses=poses,
+                      speed=request.max_velocity_scaling_factor, keeps=options.planning_scene_diff.is_diff
+                      and options.planning_scene_diff.robot_state.is_diff and request.start_state.is_diff)
+            if "no-plan" in self.faults:
+                server.end(goal, ABORTED, error_code={"val": -1, "message": "no plan"})
+                return
+            end = wanted[0] or {"arm_lift_joint": 0.25}
+            start = [self.body.joints[name] for name in end]
+            still = [0.0] * len(end)
+            self.trajectories[key] = (goal, [(0.0, start, still), (1.5, list(end.values()), still)], list(end), False, time.monotonic())
+
+        def cancel(goal):
+            self.note("cancel", action=key, id=list(goal.id))
+            running = self.trajectories.pop(key, None)
+            if running:
+                self.halt(running)
+            server.end(goal, CANCELED, error_code={"val": -7})
+
+        server = ActionServer(self.node, key, "moveit_msgs/MoveGroup", lambda _: "reject" not in self.faults, begin, cancel, self.faults)
+        server.finish = lambda goal: server.end(goal, SUCCEEDED, error_code={"val": 1})
+        self.servers.append(server)
+
     def heed_twists(self):
         """A base that is told to stop by its speeds stops, whatever its navigation does."""
         for twist in self.twists.take(16) if self.twists else ():
@@ -335,7 +370,7 @@ class Robot:
             joints, speeds = body.joints, body.speeds
             self.joint_states.write(zero("sensor_msgs/JointState", header=header, name=names, position=[joints[name] for name in names],
                                          velocity=[speeds.get(name, 0.0) for name in names]))
-        if self.is_due("base", 0.02):
+        if self.odometry and self.is_due("base", 0.02):
             x, y, yaw = body.base
             turn = {"z": math.sin(yaw / 2.0), "w": math.cos(yaw / 2.0)}
             vx, vy, wz = body.moves
@@ -349,7 +384,8 @@ class Robot:
             self.tf_static.write(zero("tf2_msgs/TFMessage", transforms=[{"header": {"frame_id": self.map}, "child_frame_id": "odom", "transform": still}]))
             if self.localization:
                 covariance = [0.0] * 36
-                covariance[0] = covariance[7] = self.sigma**2
+                # Along the diagonal the place is as uncertain as sigma says, and across it certain.
+                covariance[0] = covariance[1] = covariance[6] = covariance[7] = self.sigma**2 / 2.0
                 self.localization.write(zero("geometry_msgs/PoseWithCovarianceStamped", header=header, pose={"covariance": covariance}))
         if self.detections and self.is_due("detections", 0.2):
             found = []
@@ -391,6 +427,7 @@ def main():
     parser.add_argument("--fault", action="append", default=[])
     parser.add_argument("--domain", type=int, default=0)
     parser.add_argument("--log", help="file for what happens, one JSON object a line")
+    parser.add_argument("--base", type=float, nargs=3, default=[0.0, 0.0, 0.0], help="pose of the base at the start")
     parser.add_argument("--sigma", type=float, default=0.005, help="standard deviation of the localisation in m")
     args = parser.parse_args()
     with open(args.binding, "rb") as file:
@@ -398,8 +435,8 @@ def main():
     if args.physics:
         body = Physics(args.robot, args.scene, args.motet)
     else:
-        names = [name for one in binding["controllers"] for name in one.get("joints", [])]
-        body = Still({**dict.fromkeys(names, 0.0), **START}, [0.0, 0.0, 0.0])
+        names = [name for one in binding.get("controllers", []) for name in one.get("joints", [])]
+        body = Still({**dict.fromkeys(names, 0.0), **START}, args.base)
     log = open(args.log, "a") if args.log else None
     robot = Robot(binding, body, args.fault, args.domain, log, args.sigma)
     print("ready", flush=True)

@@ -4,7 +4,9 @@ import os
 import random
 import statistics
 import subprocess
+import tempfile
 import time
+from pathlib import Path
 
 import pytest
 from host import DRIVER, HERE, MOTET, Driver, RobotProcess
@@ -145,10 +147,91 @@ def test_without_a_robot_a_goal_fails_and_says_why():
 def test_the_localisation_widens_the_clearance():
     with RobotProcess("--sigma", "0.04") as robot, Driver() as driver:
         time.sleep(1.0)
-        outcome = driver.ended(driver.lift(0.3, clearance=0.05))
-        assert outcome["failure"]["text"] == "the path keeps 0.050 m clear, and the localisation has an error of 0.080 m"
-        assert driver.ended(driver.lift(0.3, clearance=0.09)) == {"success": None}
-        assert len(robot.events("trajectory")) == 1
+        assert driver.ended(driver.lift(0.0, clearance=0.09)) == {"success": None}
+        # A path with less room is proven anew with as much as the localisation needs.
+        goal = driver.lift(0.3, clearance=0.05)
+        assert driver.ended(goal, 30.0) == {"success": None}
+        text = "the path keeps 0.050 m clear, and the localisation has an error of 0.080 m; a new path is looked for"
+        assert driver.texts(goal) == [text]
+
+
+def test_a_localisation_that_nobody_can_use_stops_motions():
+    with RobotProcess("--sigma", "0.3") as robot, Driver() as driver:
+        time.sleep(1.0)
+        outcome = driver.ended(driver.lift(0.3, clearance=0.4), 20.0)
+        assert outcome["failure"]["text"] == "the localisation has an error of 0.600 m"
+        assert not robot.events("trajectory")
+
+
+MOVE_GROUP = """
+[move_group]
+action = "/move_action"
+group = "arm"
+link = "hand_palm_link"
+grasps = [{ xyz = [0.0, 0.0, 0.1], rpy = [3.14159265, 0.0, 0.0] }, { xyz = [-0.1, 0.0, 0.0] }]
+speed = 0.2
+"""
+
+
+@pytest.fixture
+def grouped(tmp_path):
+    """A binding with MoveGroup."""
+    path = tmp_path / "grouped.toml"
+    path.write_text((HERE / "hsr.toml").read_text() + MOVE_GROUP)
+    return path
+
+
+def test_a_posture_without_a_path_is_a_goal_of_move_group(grouped):
+    with RobotProcess(binding=grouped) as robot, Driver(grouped, motet="/bin/false") as driver:
+        goal = driver.move("posture", {"case": "home"})
+        assert driver.ended(goal, 20.0) == {"success": None}
+        [event] = robot.events("move_group")
+        assert event["group"] == "arm" and event["speed"] == 0.2 and event["keeps"]
+        assert event["joints"][0]["arm_roll_joint"] == -1.57 and "base" not in event["joints"][0]
+        assert "MoveGroup plans a way that nobody has certified" in driver.texts(goal)[0]
+
+
+def test_a_reach_without_a_path_has_the_grasps_as_goals_of_move_group(grouped):
+    with RobotProcess(binding=grouped) as robot, Driver(grouped, motet="/bin/false") as driver:
+        assert driver.ended(driver.move("reach", {"entity": "mug_1"}), 20.0) == {"success": None}
+        [event] = robot.events("move_group")
+        top, front = event["poses"]
+        assert top[:2] == ["hand_palm_link", "base_footprint"]
+        x, y, z = top[2:5]
+        assert abs(x - 1.98) < 1e-6 and abs(y - 0.3) < 1e-6 and front[2:5] == pytest.approx([x - 0.1, y, z - 0.1])
+        assert top[5:] == pytest.approx([1.0, 0.0, 0.0, 0.0], abs=1e-6)
+
+
+def test_the_way_back_of_move_group_ends_where_it_began(grouped):
+    with RobotProcess(binding=grouped) as robot, Driver(grouped, motet="/bin/false") as driver:
+        reach = {"query": "reach", "args": [{"entity": "mug_1"}], "verdict": "open"}
+        goal, _ = driver.start("pick", [reach], object={"entity": "mug_1"})
+        assert driver.ended(goal, 20.0) == {"success": None}
+        there, back = robot.events("move_group")
+        assert there["poses"] and not back["poses"]
+        assert back["joints"][0]["arm_lift_joint"] == pytest.approx(0.0, abs=1e-6)
+
+
+def test_a_motion_that_is_certainly_infeasible_is_none_of_move_group(grouped):
+    with RobotProcess(binding=grouped) as robot, Driver(grouped) as driver:
+        outcome = driver.ended(driver.move("reach", {"entity": "plate"}), 40.0)
+        assert "failure" in outcome and not robot.events("move_group")
+
+
+def test_a_plan_that_move_group_does_not_find_fails_with_its_words(grouped):
+    with RobotProcess("--fault", "no-plan", binding=grouped), Driver(grouped, motet="/bin/false") as driver:
+        outcome = driver.ended(driver.move("posture", {"case": "home"}), 20.0)
+        assert outcome["failure"]["text"] == "/move_action aborted: the planning failed (-1): no plan"
+
+
+@pytest.mark.parametrize("fault", ["none", "ignore-cancel"])
+def test_a_canceled_goal_of_move_group_stands_still(grouped, fault):
+    with RobotProcess("--fault", fault, binding=grouped) as robot, Driver(grouped, motet="/bin/false") as driver:
+        goal = driver.move("reach", {"entity": "mug_1"})
+        assert robot.wait("move_group")
+        time.sleep(0.4)
+        driver.call("cancel", goal=goal)
+        assert driver.ended(goal, 10.0) == "interrupted"
 
 
 def test_a_path_that_begins_elsewhere_is_planned_anew():
@@ -232,6 +315,23 @@ def test_a_path_on_which_base_and_arm_move_at_once_is_no_navigation():
         goal, _ = driver.start("go", [{"query": "go_to", "args": [{"entity": "counter"}], "verdict": "proven", "witness": witness}])
         assert "which a navigation cannot" in driver.ended(goal)["failure"]["text"]
         assert not robot.events("navigate")
+
+
+@pytest.mark.parametrize("name, robot, base, event, times", [
+    ("panda", "panda", ["0", "0", "0"], "trajectory", 3),
+    ("nav2", "hsr", ["-2.0", "-0.5", "0"], "navigate", 1),
+])
+def test_the_policies_for_containers_run(name, robot, base, event, times):
+    binding = HERE / "container" / (name + ".toml")
+    text = binding.read_text().replace("fastdds", "cyclonedds").replace("TwistStamped", "Twist")
+    with tempfile.TemporaryDirectory() as folder:
+        own = Path(folder) / "own.toml"
+        own.write_text(text)
+        with RobotProcess("--base", *base, binding=own) as served:
+            flags = ["--robot", robot, "--scene", str(binding.with_suffix(".json")), "--driver", "ros2:%s" % own]
+            done = subprocess.run([MOTET, "run", str(binding.with_suffix(".motet")), *flags], capture_output=True, text=True, timeout=60)
+            assert done.returncode == 0, done.stdout + done.stderr
+            assert len(served.events(event)) == times
 
 
 def test_the_binding_is_compared_with_the_network():

@@ -9,12 +9,17 @@ use crate::template::of_pose;
 use crate::tf::{Planar, Transform};
 use crossbeam_channel::bounded;
 use motet_graph::{Value as Argument, Witness};
+use motet_robots::clearance::GREATEST_CLEARANCE;
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 
 impl Task {
     pub(super) fn begin_motion(&mut self, around: &mut Surroundings<'_>, direction: Direction) -> bool {
         if direction == Direction::Back {
+            if let Some(before) = self.before.take() {
+                self.return_by_move_group(around, &before);
+                return true;
+            }
             let Some((part, names)) = self.path.clone() else {
                 self.fail(around, "no way there was followed before".to_owned());
                 return true;
@@ -30,7 +35,7 @@ impl Task {
             return !self.waits_for(around, &missing) && self.stopping.is_some();
         }
         if let Some(witness) = &motion.witness {
-            match self.departure(around, witness) {
+            match self.departure(around, witness).and_then(|()| is_clear(around.robot, witness)) {
                 Ok(()) => {
                     self.take_path(around, &witness.clone());
                     return true;
@@ -39,7 +44,7 @@ impl Task {
             }
         }
         if let Err(why) = self.plan(around, plan::motion(&motion)) {
-            self.fail(around, why);
+            self.plan_by_move_group(around, &why.into());
             return true;
         }
         false
@@ -76,12 +81,15 @@ impl Task {
             }
             Some(_) => Err(why),
         })?;
-        let program = around.planner.ok_or("the robot does not stand where the path begins")?.clone();
         let positions = around.robot.body.positions();
         let controlled = positions.iter().filter(|(name, _)| binding.controls(name));
         let joints = controlled.map(|(name, value)| (binding.card_joint(name).to_owned(), *value)).collect();
-        let question =
-            Question::new(program, around.card, &around.world.scene, motion, base, &joints, around.limits);
+        let clearance = needed_clearance(around.robot);
+        if clearance > GREATEST_CLEARANCE {
+            return Err(format!("the localisation has an error of {clearance:.3} m"));
+        }
+        let question = Question::new(around.card, &around.world.scene, motion, base, &joints, clearance);
+        let question = question.ok_or("the command `motet`, which plans paths, was not found")?;
         let (sender, answer) = bounded(1);
         std::thread::spawn(move || {
             // The task may be over before its answer.
@@ -119,18 +127,10 @@ impl Task {
     }
 
     pub(super) fn take_path(&mut self, around: &mut Surroundings<'_>, witness: &Witness) {
-        let binding = &around.robot.binding;
-        // The path was checked for the expected place of the base: it needs room for the error of that place.
-        if let Some(sigma) = around.robot.body.sigma {
-            let needed = sigma * binding.base.sigmas;
-            if witness.clearance < needed {
-                let text = format!(
-                    "the path keeps {:.3} m clear, and the localisation has an error of {needed:.3} m",
-                    witness.clearance
-                );
-                self.fail(around, text);
-                return;
-            }
+        // The localisation may have become worse while the path was looked for.
+        if let Err(text) = is_clear(around.robot, witness) {
+            self.fail(around, text);
+            return;
         }
         self.width = witness.grasp.as_ref().map_or(0.0, |grasp| grasp.width);
         let stretch = self.command.manner.map_or(1.0, motet_graph::Manner::stretch);
@@ -220,6 +220,12 @@ impl Task {
                     "behavior_tree": navigation.behavior_tree});
                 self.parts.1 = true;
                 Ok(vec![(action, goal, self.command.deadline_secs)])
+            }
+            Move::Group(goal) => {
+                let bound = robot.binding.move_group.as_ref().ok_or("MoveGroup is not bound")?;
+                let action = robot.action_at(&bound.action).ok_or("MoveGroup is not open")?;
+                self.parts = robot.parts();
+                Ok(vec![(action, goal.clone(), self.command.deadline_secs)])
             }
             Move::Follow(part, names) => {
                 let names: Vec<&str> = names.iter().map(String::as_str).collect();
@@ -351,6 +357,21 @@ impl Task {
             }
         }
     }
+}
+
+/// Distance in m that paths must keep for the error of the localisation.
+fn needed_clearance(robot: &Robot) -> f64 {
+    robot.body.sigma.map_or(0.0, |sigma| sigma * robot.binding.base.sigmas)
+}
+
+/// Says that a path does not keep clear enough. It was checked for the expected place of the base, and needs
+/// room for the error of that place.
+fn is_clear(robot: &Robot, witness: &Witness) -> Result<(), String> {
+    let (keeps, needed) = (witness.clearance, needed_clearance(robot));
+    if keeps >= needed {
+        return Ok(());
+    }
+    Err(format!("the path keeps {keeps:.3} m clear, and the localisation has an error of {needed:.3} m"))
 }
 
 /// True for joints of the hand, by the words that descriptions use.

@@ -65,7 +65,7 @@ impl Task {
                 let rest = self.rest(around.robot, &part, &names);
                 self.moves.push_front(Move::Follow(rest, names));
             }
-            Some(navigate) => self.moves.push_front(navigate),
+            Some(again) => self.moves.push_front(again),
             None => {}
         }
     }
@@ -133,11 +133,4 @@ pub(crate) fn stand_still(robot: &mut Robot, (joints, drives): &(Vec<String>, bo
     if *drives {
         robot.send_stops();
     }
-}
-
-/// Parts of the whole robot, as its controllers have them.
-#[must_use]
-pub(crate) fn whole(robot: &Robot) -> (Vec<String>, bool) {
-    let joints = robot.binding.controllers.iter().flat_map(|controller| controller.joints.iter().cloned());
-    (joints.collect(), robot.binding.base.odometry.is_some())
 }
