@@ -120,7 +120,7 @@ impl RepairFinder {
         library: &Library,
         environment: &Environment,
     ) -> Vec<Finding> {
-        let writer = write::Writer { parsed, program, library, environment };
+        let writer = write::Writer { parsed, program, library, environment, spans: Default::default() };
         let wrong = diagnostics.iter().chain(&parsed.diagnostics);
         let wrong = wrong.filter(|said| said.severity == Severity::Error).map(|said| said.span);
         let wrong: Vec<Span> = wrong.collect();

@@ -1,7 +1,10 @@
 //! Repairs as edits of a document, in its own syntax and layout.
 
+use std::cell::OnceCell;
+
 use motet_syntax::ast::{Do, Name};
 use motet_syntax::{Code, Diagnostic, Edit, Fix, Parsed, Span, Syntax, print};
+use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 use smol_str::{SmolStr, format_smolstr};
 
@@ -20,6 +23,8 @@ pub(super) struct Writer<'a> {
     pub(super) program: &'a Program,
     pub(super) library: &'a Library,
     pub(super) environment: &'a Environment,
+    /// First step at each span.
+    pub(super) spans: OnceCell<FxHashMap<Span, StepId>>,
 }
 
 impl Writer<'_> {
@@ -214,8 +219,15 @@ impl Writer<'_> {
         if said.code.0 != "M0902" {
             return None;
         }
-        let step = self.program.steps.iter().find(|step| step.span == said.span)?;
+        let spans = self.spans.get_or_init(|| {
+            let ids = (0..).map(StepId).zip(&self.program.steps).collect::<Vec<_>>().into_iter().rev();
+            ids.map(|(id, step)| (step.span, id)).collect()
+        });
+        let step = self.step(*spans.get(&said.span)?)?;
         let place = step.position;
+        if place.index == 0 {
+            return None;
+        }
         let rest = self.program.steps.iter().filter(|other| {
             let position = other.position;
             position.parent == place.parent && position.slot == place.slot && position.index >= place.index
@@ -230,7 +242,7 @@ impl Writer<'_> {
                 removed = removed.to(other.span);
             }
         }
-        if place.index == 0 || wrong.iter().any(|span| removed.contains(*span)) {
+        if wrong.iter().any(|span| removed.contains(*span)) {
             return None;
         }
         Some(Fix { title: "remove the unreachable steps".to_owned(), edits: vec![self.without(removed)?] })

@@ -49,6 +49,11 @@ motet_syntax::mistakes! {
     message(m) { format!("the policy has more than {} steps, with its sub-policies inlined", m.limit) }
     help(_m) { Some("use `repeat` or `each` instead of copies of steps".to_owned()) }
 
+    /// Parallel block with too many branches, each of which is proved beside all others.
+    TooManyBranches("M0212", Error) { found: usize, limit: usize }
+    message(m) { format!("the `parallel` has {} branches, but at most {} may run at once", m.found, m.limit) }
+    help(_m) { Some("let some of them run one after the other".to_owned()) }
+
     /// Binding of the result of a step without one.
     NoResult("M0305", Error) { callee: SmolStr, name: SmolStr }
     message(m) { format!("`{}` has no result to bind to `{}`", m.callee, m.name) }

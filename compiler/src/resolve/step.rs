@@ -9,7 +9,7 @@ use smallvec::{SmallVec, smallvec};
 use smol_str::{SmolStr, format_smolstr};
 
 use super::ResolvedStep;
-use super::errors::{NoReason, Shadows, TooManySteps};
+use super::errors::{NoReason, Shadows, TooManyBranches, TooManySteps};
 use super::path::{Fork, without_value};
 use super::result::{PolicyResult, stands_for_itself};
 use crate::declare::elaborator::{Elaborator, Expected, ValueRole};
@@ -20,6 +20,8 @@ use crate::ir::{self, Binding, BindingId, BlockSlot, Condition, Program, StepId,
 
 /// Maximal number of steps of a policy with its sub-policies inlined.
 pub const MAX_NODES: usize = 100_000;
+/// Greatest number of branches of a parallel block: each is proved beside all others.
+const MAX_BRANCHES: usize = 256;
 
 /// Default deadline of a `wait` or `pause`, in seconds.
 pub(super) const DEFAULT_WAIT_SECS: f64 = 60.0;
@@ -360,7 +362,11 @@ impl<'a> StepResolver<'a> {
             }
             StepKind::Parallel { branches } => {
                 let mut fork = self.fork(id);
-                let numbered = branches.iter().enumerate();
+                let (found, limit) = (branches.len(), MAX_BRANCHES);
+                if found > limit {
+                    self.elaborator.report(TooManyBranches { span: step.span, found, limit });
+                }
+                let numbered = branches.iter().enumerate().take(limit);
                 let branches = numbered.map(|(index, block)| {
                     let slot = BlockSlot::Branch(u16::try_from(index).unwrap_or(u16::MAX));
                     self.path(&mut fork, (block, slot), "a branch", &Unbound::Beside)

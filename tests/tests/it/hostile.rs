@@ -49,6 +49,14 @@ fn session_sub_policies_that_grow_beyond_the_limit_are_refused() {
 }
 
 #[test]
+fn session_more_parallel_branches_than_allowed_are_refused() {
+    let parallel = |count: usize| format!("policy p {{ parallel {{ {} }} }}", "{ wait 1 s } ".repeat(count));
+    assert_eq!(codes(&parallel(256)), Vec::<String>::new());
+    assert_eq!(codes(&parallel(257)), ["M0212"]);
+    assert_eq!(codes(&parallel(70_000)), ["M0212"]);
+}
+
+#[test]
 fn session_loops_nested_too_deep_are_refused() {
     let nested = |depth: usize| {
         let open = "repeat 2 { ".repeat(depth);

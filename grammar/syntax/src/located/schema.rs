@@ -3,6 +3,10 @@
 //! `required`, `additionalProperties`, `items`, `minItems` and `maxItems` that are equal, `minimum`, `enum`,
 //! `const`, `anyOf` and `oneOf`.
 
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use rustc_hash::FxHashMap;
 use serde_json::Value as Json;
 
 use super::{Located, LocatedValue, Number, push_token};
@@ -79,64 +83,70 @@ pub(crate) struct Leaf<'t> {
 }
 
 /// A schema with its definitions.
-#[derive(Clone, Copy)]
 pub(crate) struct SchemaView<'t> {
     root: &'t Json,
+    /// Alternatives of each schema that was asked for, by its address.
+    known: RefCell<FxHashMap<*const Json, Rc<[Leaf<'t>]>>>,
 }
 
 impl<'t> SchemaView<'t> {
     /// View of a whole schema.
     pub(crate) fn new(root: &'t Json) -> Self {
-        Self { root }
+        Self { root, known: RefCell::default() }
     }
 
     /// The schema itself.
-    pub(crate) fn root(self) -> &'t Json {
+    pub(crate) fn root(&self) -> &'t Json {
         self.root
     }
 
     /// Definition with this name.
-    pub(crate) fn definition(self, name: &str) -> Option<&'t Json> {
+    pub(crate) fn definition(&self, name: &str) -> Option<&'t Json> {
         self.root.get("$defs").and_then(|definitions| definitions.get(name))
     }
 
     /// Keys that name the forms of an object with several.
-    pub(crate) fn forms(self, name: &str) -> Vec<&'t str> {
+    pub(crate) fn forms(&self, name: &str) -> Vec<&'t str> {
         let leaves = self.definition(name).map(|schema| self.leaves(schema)).unwrap_or_default();
-        leaves.into_iter().filter_map(|leaf| form_key(leaf.schema)).collect()
+        leaves.iter().filter_map(|leaf| form_key(leaf.schema)).collect()
     }
 
     /// Words of an enumeration.
-    pub(crate) fn words(self, name: &str) -> Vec<&'t str> {
+    pub(crate) fn words(&self, name: &str) -> Vec<&'t str> {
         let leaves = self.definition(name).map(|schema| self.leaves(schema)).unwrap_or_default();
-        leaves.into_iter().flat_map(|leaf| words(leaf.schema).unwrap_or_default()).collect()
+        leaves.iter().flat_map(|leaf| words(leaf.schema).unwrap_or_default()).collect()
     }
 
     /// Schema of a key; `None` for one that the object does not list.
-    pub(crate) fn property(self, schema: &'t Json, key: &str) -> Option<&'t Json> {
+    pub(crate) fn property(&self, schema: &'t Json, key: &str) -> Option<&'t Json> {
         property(schema, key)
     }
 
     /// Schema of the elements, if only a list of any length is accepted.
-    pub(crate) fn list_items(self, schema: &'t Json) -> Option<&'t Json> {
+    pub(crate) fn list_items(&self, schema: &'t Json) -> Option<&'t Json> {
         let is_list = types(schema).iter().all(|kind| matches!(*kind, "array" | "null"));
         let is_fixed = schema.get("maxItems").is_some();
         schema.get("items").filter(|_| is_list && !is_fixed)
     }
 
     /// Checks if a schema accepts only `null`.
-    pub(crate) fn is_null(self, schema: &Json) -> bool {
+    pub(crate) fn is_null(&self, schema: &Json) -> bool {
         types(schema) == ["null"]
     }
 
     /// The alternatives of a schema, through `$ref`.
-    pub(crate) fn leaves(self, schema: &'t Json) -> Vec<Leaf<'t>> {
+    pub(crate) fn leaves(&self, schema: &'t Json) -> Rc<[Leaf<'t>]> {
+        if let Some(known) = self.known.borrow().get(&std::ptr::from_ref(schema)) {
+            return Rc::clone(known);
+        }
         let mut found = Vec::new();
         self.add_leaves(Leaf { schema, name: None }, &mut found);
+        let found: Rc<[Leaf<'t>]> = found.into();
+        self.known.borrow_mut().insert(schema, Rc::clone(&found));
         found
     }
 
-    fn add_leaves(self, leaf: Leaf<'t>, found: &mut Vec<Leaf<'t>>) {
+    fn add_leaves(&self, leaf: Leaf<'t>, found: &mut Vec<Leaf<'t>>) {
         let Leaf { schema, name } = leaf;
         if let Some(pointer) =
             schema.get("$ref").and_then(Json::as_str).and_then(|target| target.strip_prefix('#'))

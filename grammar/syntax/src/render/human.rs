@@ -12,9 +12,11 @@ use miette::{
     SourceCode, SourceSpan, SpanContents,
 };
 
+use rustc_hash::FxHashMap;
+
 use super::{escaped, masked, source};
 use crate::diagnostic::{Diagnostic, Related, Severity};
-use crate::source::{Sources, Span};
+use crate::source::{FileId, Sources, Span};
 
 /// Choice to write escape sequences for colours.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -32,11 +34,12 @@ pub fn human(diagnostics: &[Diagnostic], sources: &Sources, color: ColorChoice, 
     };
     let handler = GraphicalReportHandler::new_themed(theme).with_width(width.max(40)).with_links(false);
     let mut text = String::new();
+    let mut texts = MaskedTexts::default();
     for diagnostic in diagnostics {
         if !text.is_empty() {
             text.push('\n');
         }
-        let report = Report::new(diagnostic, sources);
+        let report = Report::new(diagnostic, sources, &mut texts);
         if handler.render_report(&mut text, &report).is_err() {
             // Nothing in a report can fail to be formatted; if it did, the message alone is still worth
             // having.
@@ -45,6 +48,9 @@ pub fn human(diagnostics: &[Diagnostic], sources: &Sources, color: ColorChoice, 
     }
     text
 }
+
+/// Masked texts of the files that were shown.
+type MaskedTexts = FxHashMap<FileId, Arc<str>>;
 
 /// A diagnostic as miette takes it.
 #[derive(Debug)]
@@ -60,9 +66,9 @@ struct Report {
 }
 
 impl Report {
-    fn new(diagnostic: &Diagnostic, sources: &Sources) -> Self {
+    fn new(diagnostic: &Diagnostic, sources: &Sources, texts: &mut MaskedTexts) -> Self {
         let span = diagnostic.span;
-        let mut report = Self::at(span, sources);
+        let mut report = Self::at(span, sources, texts);
         report.code = diagnostic.code.0;
         report.severity = diagnostic.severity;
         report.message = escaped(&diagnostic.message);
@@ -79,7 +85,7 @@ impl Report {
         let main = label(drawn, None, sources).filter(|main| !main.is_empty() || drawn == span);
         report.labels.extend(main.map(|main| LabeledSpan::new_primary_with_span(None, *main.inner())));
         for related in &diagnostic.related {
-            report.relate(related, span, sources);
+            report.relate(related, span, sources, texts);
         }
         if let [only] = report.labels.as_slice()
             && !only.primary()
@@ -90,34 +96,37 @@ impl Report {
         report
     }
 
-    fn at(span: Span, sources: &Sources) -> Self {
+    fn at(span: Span, sources: &Sources, texts: &mut MaskedTexts) -> Self {
         let source = source(sources, span);
+        let source = source.map(|source| {
+            let text = texts.entry(span.file).or_insert_with(|| masked(&source.text));
+            NamedSource::new(escaped(&source.name), Excerpt(Arc::clone(text)))
+        });
         Self {
             code: "",
             severity: Severity::Note,
             message: String::new(),
             help: None,
-            source: source
-                .map(|source| NamedSource::new(escaped(&source.name), Excerpt(masked(&source.text)))),
+            source,
             labels: Vec::new(),
             elsewhere: Vec::new(),
         }
     }
 
     /// A remark in the same file is a second label; any other is a report of its own below.
-    fn relate(&mut self, related: &Related, main: Span, sources: &Sources) {
+    fn relate(&mut self, related: &Related, main: Span, sources: &Sources, texts: &mut MaskedTexts) {
         match related.span {
             Some(span) if span.file == main.file && !is_cut(main, sources) && !is_cut(span, sources) => {
                 self.labels.extend(label(span, Some(escaped(&related.message)), sources));
             }
             Some(span) => {
-                let mut report = Self::at(span, sources);
+                let mut report = Self::at(span, sources, texts);
                 report.message = escaped(&related.message);
                 report.labels.extend(label(span, None, sources));
                 self.elsewhere.push(report);
             }
             None => {
-                let mut report = Self::at(main, &Sources::default());
+                let mut report = Self::at(main, &Sources::default(), texts);
                 report.message = escaped(&related.message);
                 self.elsewhere.push(report);
             }
@@ -219,6 +228,21 @@ fn line_about(text: &str, at: usize) -> (usize, usize) {
     (start, end)
 }
 
+/// Start of the line so many lines before the one that starts at an offset.
+fn lines_back(text: &str, start: usize, count: usize) -> usize {
+    (0..count).fold(start, |start, _| line_about(text, start.saturating_sub(1)).0)
+}
+
+/// End of the line so many lines behind the one that ends at an offset.
+fn lines_on(text: &str, end: usize, count: usize) -> usize {
+    (0..count).fold(end, |end, _| line_about(text, boundary(text, (end + 1).min(text.len()))).1)
+}
+
+/// Number of line breaks before an offset.
+fn breaks(text: &str, at: usize) -> usize {
+    text.as_bytes().get(..at).map_or(0, |above| above.iter().filter(|byte| **byte == b'\n').count())
+}
+
 /// The nearest character boundary at or before an offset.
 fn boundary(text: &str, at: usize) -> usize {
     (0..=at).rev().find(|at| text.is_char_boundary(*at)).unwrap_or(0)
@@ -231,19 +255,27 @@ impl SourceCode for Excerpt {
         before: usize,
         after: usize,
     ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
-        let contents = self.0.read_span(span, before, after)?;
-        if contents.data().split(|byte| *byte == b'\n').all(|line| line.len() <= LONG_LINE) {
-            return Ok(contents);
-        }
         let text: &str = &self.0;
         let place = boundary(text, span.offset().min(text.len()));
         let (line_start, _) = line_about(text, place);
-        let (_, line_end) = line_about(text, boundary(text, place + span.len()));
+        let (_, line_end) = line_about(text, boundary(text, (place + span.len()).min(text.len())));
+        if line_end - line_start <= LONG_LINE {
+            // Only these lines are searched: the whole text once for each place would be slow.
+            let first = lines_back(text, line_start, before + 1);
+            let lines = text.get(first..lines_on(text, line_end, after + 2)).unwrap_or("");
+            let within = SourceSpan::from((span.offset().saturating_sub(first), span.len()));
+            let contents = lines.read_span(&within, before, after)?;
+            if contents.data().split(|byte| *byte == b'\n').all(|line| line.len() <= LONG_LINE) {
+                let shown = SourceSpan::from((first + contents.span().offset(), contents.span().len()));
+                let (line, column) = (breaks(text, first) + contents.line(), contents.column());
+                let (data, count) = (contents.data(), contents.line_count());
+                return Ok(Box::new(MietteSpanContents::new(data, shown, line, column, count)));
+            }
+        }
         let reach = if before == 0 { 0 } else { AROUND };
         let start = boundary(text, place.saturating_sub(reach).max(line_start));
         let end = boundary(text, (place + span.len() + reach).min(line_end));
-        let above = text.get(..start).unwrap_or("");
-        let line = above.bytes().filter(|byte| *byte == b'\n').count();
+        let line = breaks(text, start);
         let column = text.get(line_start..start).map_or(0, |left| left.chars().count());
         let data = text.get(start..end).unwrap_or("").as_bytes();
         let shown = SourceSpan::from((start, end - start));
