@@ -9,8 +9,11 @@ pub use crate::repair::Applicability;
 use crate::repair::Finding;
 use crate::session::Session;
 
-/// Maximal number of documents that are checked to fix one.
+/// Maximal number of documents that are checked to fix one, and the least.
 const MAX_TRIES: usize = 500;
+const MIN_TRIES: usize = 8;
+/// Maximal length of all documents that are checked to fix one, in bytes, beyond the least number.
+const MAX_TRIED_BYTES: usize = 512 << 10;
 /// Maximal number of fixes that are combined before the document checks better: a corrected name can uncover
 /// an error behind it.
 const MAX_DEPTH: usize = 3;
@@ -63,7 +66,8 @@ impl FixLimits {
 
 /// Writes the shapes of a document in the form of the language (M0122), and applies fixes within limits.
 /// Each leaves it with fewer errors and no new kind of error, or with as many errors, fewer warnings and no
-/// new code, and with every goal proven that was proven. At most 500 documents are checked on the way.
+/// new code, and with every goal proven that was proven. At most 500 documents are checked on the way, and
+/// fewer for a document of more than 1 kB, but at least 8.
 ///
 /// ```
 /// use motet_compiler::fix::{FixLimits, fix};
@@ -90,7 +94,8 @@ pub fn fix_parsed(
     file: FileId,
     limits: FixLimits,
 ) -> FixedDocument {
-    let mut search = Search { session, source, file, least: limits.least, tries: MAX_TRIES };
+    let tries = (MAX_TRIED_BYTES / source.text.len().max(1)).clamp(MIN_TRIES, MAX_TRIES);
+    let mut search = Search { session, source, file, least: limits.least, tries };
     let mut at = Candidate::new(session, source.text.to_string(), parsed);
     let (mut applied, mut left) = (Vec::new(), limits.most);
     loop {

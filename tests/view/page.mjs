@@ -77,6 +77,25 @@ async function swap() {
   child.kill();
 }
 
+/** The camera's picture is there while the run goes on, and the wheel comes closer to what is under the pointer. */
+async function camera() {
+  const { child, url } = serve(motet, ["run", "examples/fetch_mug.motet", ...SCENE, "--speed", "1", "--view"]);
+  const { page, faults, close } = await open(browser, await url);
+  await page.locator(".row.running").first().waitFor({ timeout: PATIENCE });
+  await page.locator(".stage canvas, canvas").first().hover({ position: { x: 60, y: 200 } });
+  await page.mouse.wheel(0, -900);
+  await page.waitForTimeout(300);
+  await picture(page, "closer");
+  await tab(page, "Camera");
+  await page.waitForFunction(() => document.querySelector("img.camera")?.naturalWidth > 100, null, { timeout: PATIENCE });
+  const first = await page.locator("img.camera").getAttribute("src");
+  await page.waitForFunction((first) => document.querySelector("img.camera")?.src.endsWith(first) === false, first, { timeout: PATIENCE });
+  await picture(page, "camera");
+  check(faults.length === 0, faults.join("; "));
+  await close();
+  child.kill();
+}
+
 /** A page whose connection is cut in the middle misses nothing, and no entry comes twice. */
 async function reconnect() {
   const { child, url, exit } = serve(motet, ["run", "examples/fetch_mug.motet", ...SCENE, "--speed", "6", "--view"]);
@@ -292,6 +311,6 @@ async function refused() {
   child.kill();
 }
 
-const failed = await play({ request_with_question, free_text, swap, reconnect, scrub, blocked, hostile, thousand, refused });
+const failed = await play({ request_with_question, free_text, swap, camera, reconnect, scrub, blocked, hostile, thousand, refused });
 await browser.close();
 process.exit(failed === 0 ? 0 : 1);

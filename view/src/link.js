@@ -23,6 +23,9 @@ export function connect(add, is) {
   source.onerror = () => is(source.readyState === EventSource.CLOSED ? "refused" : "reconnecting");
 }
 
+/** Address of the latest picture of the robot's camera; the number tells one from the next. */
+export const picture = (number) => `picture?token=${encodeURIComponent(TOKEN)}&n=${number}`;
+
 /** Sends a command. Gives the reason if it is not taken. */
 export async function send(command, body = {}) {
   try {

@@ -4,6 +4,7 @@ import { render } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { Head, Questions } from "./controls.jsx";
 import { Known, StepDetails, Talk } from "./details.jsx";
+import { Camera } from "./camera.jsx";
 import { GraphView } from "./graph.jsx";
 import { Lanes } from "./lanes.jsx";
 import { Outline, active } from "./outline.jsx";
@@ -122,9 +123,10 @@ function Page({ connect, ask, examples }) {
     step: () => <StepDetails state={state} chosen={safe ?? (follow && policy ? active(policy) : null)} showLine={() => (narrow ? setOnly("text") : setMain("text"))} />,
     known: () => <Known log={log} state={state} time={time} />,
     talk: () => <Talk state={state} world={log.world} />,
+    camera: () => <Camera />,
   };
   const mains = bench.isOn ? { write: WORDS.write, steps: WORDS.steps, graph: WORDS.graph } : MAIN;
-  const sides = bench.isOn ? { scene: WORDS.scene, motions: WORDS.motions, step: WORDS.step, known: WORDS.known } : SIDE;
+  const sides = bench.isOn ? { scene: WORDS.scene, motions: WORDS.motions, step: WORDS.step, known: WORDS.known } : link === "live" ? { ...SIDE, camera: WORDS.camera } : SIDE;
   const [mainIs, sideIs] = [main in mains ? main : "write", side in sides ? side : "scene"];
   const onlyIs = only in { ...mains, ...sides } ? only : "write";
   useEffect(() => {

@@ -255,8 +255,24 @@ export class Stage {
       }
       this.draw();
     };
-    const zoom = (by) => {
-      this.#orbit.far = Math.min(60, Math.max(0.6, this.#orbit.far * by));
+    /** Point at the height of the target under the pointer; null above the horizon. */
+    const under = ({ clientX, clientY }) => {
+      const { left, top, width, height } = canvas.getBoundingClientRect();
+      const eye = this.#camera.position;
+      const ray = new Vector3(((clientX - left) / width) * 2 - 1, 1 - ((clientY - top) / height) * 2, 0.5);
+      ray.unproject(this.#camera).sub(eye);
+      const far = (this.#target.z - eye.z) / ray.z;
+      return far > 0 ? eye.clone().addScaledVector(ray, far) : null;
+    };
+    /** Comes closer or goes away; the point `at` stays where it is in the picture. */
+    const zoom = (by, at = null) => {
+      const before = this.#orbit.far;
+      this.#orbit.far = Math.min(60, Math.max(0.6, before * by));
+      if (at && at.distanceTo(this.#target) < 2 * before) {
+        const share = 1 - this.#orbit.far / before;
+        this.#target.x += (at.x - this.#target.x) * share;
+        this.#target.y += (at.y - this.#target.y) * share;
+      }
       this.draw();
     };
     canvas.addEventListener("pointerdown", (event) => {
@@ -278,7 +294,7 @@ export class Stage {
       "wheel",
       (event) => {
         event.preventDefault();
-        zoom(Math.exp(event.deltaY * 0.001));
+        zoom(Math.exp(event.deltaY * 0.001), under(event));
       },
       { passive: false },
     );

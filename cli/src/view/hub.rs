@@ -5,8 +5,9 @@
 
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
 
-use motet_runtime::{RunControl, Time};
+use motet_runtime::{CameraImage, RunControl, Time};
 use serde_json::{Value, json};
 use tokio::sync::watch;
 
@@ -18,6 +19,10 @@ const MOST_BYTES: usize = 512 * 1024 * 1024;
 const MOTION_EVERY: Time = Time::from_nanos(90_000_000);
 /// Number of kept reports of motion after which their span doubles, again and again.
 const MOTIONS: u64 = 10_000;
+/// Time for which a page that has asked for a picture shows it.
+const PICTURE_WANTED: Duration = Duration::from_secs(3);
+/// Shortest time between two pictures.
+const PICTURE_EVERY: Duration = Duration::from_millis(400);
 
 /// Item of a page.
 #[derive(Clone, Debug)]
@@ -64,12 +69,48 @@ pub(crate) struct Hub {
     count: watch::Sender<usize>,
     operator: Mutex<Operator>,
     motions: Mutex<Motions>,
+    /// Picture of the robot's camera.
+    pub(crate) sight: Sight,
+}
+
+/// Picture of the robot's camera, which is taken only while a page shows it.
+#[derive(Debug, Default)]
+pub(crate) struct Sight(Mutex<SightState>);
+
+#[derive(Debug, Default)]
+struct SightState {
+    wanted: Option<Instant>,
+    taken: Option<Instant>,
+    image: Option<CameraImage>,
+}
+
+impl Sight {
+    /// Latest picture. Asked again and again, it is taken again and again.
+    pub(crate) fn want(&self) -> Option<CameraImage> {
+        let mut state = locked(&self.0);
+        state.wanted = Some(Instant::now());
+        state.image.clone()
+    }
+
+    /// Is `true` if a page waits for a picture, and the last one was taken a while ago.
+    pub(crate) fn is_due(&self) -> bool {
+        let state = locked(&self.0);
+        let is_wanted = state.wanted.is_some_and(|wanted| wanted.elapsed() < PICTURE_WANTED);
+        is_wanted && state.taken.is_none_or(|taken| taken.elapsed() > PICTURE_EVERY)
+    }
+
+    /// Takes in a picture, or that there is none.
+    pub(crate) fn take(&self, image: Option<CameraImage>) {
+        let mut state = locked(&self.0);
+        (state.taken, state.image) = (Some(Instant::now()), image);
+    }
 }
 
 impl Default for Hub {
     fn default() -> Self {
         let (count, _) = watch::channel(0);
-        Self { items: Mutex::default(), count, operator: Mutex::default(), motions: Mutex::default() }
+        let (operator, motions, sight) = Default::default();
+        Self { items: Mutex::default(), count, operator, motions, sight }
     }
 }
 

@@ -7,8 +7,8 @@ use motet::page::entries::EntryTracker;
 use motet_graph::Graph;
 use motet_runtime::journal::{JournalEntry, JournalHead};
 use motet_runtime::{
-    Answer, Detection, Effect, Engine, Event, Heard, Moved, Observer, PreparedSwap, Query, RetiredGraph,
-    RunControl, SwapRefusal, Time, ToldThing, Verifier,
+    Answer, CameraImage, Detection, Effect, Engine, Event, Heard, Moved, Observer, PreparedSwap, Query,
+    RetiredGraph, RunControl, SwapRefusal, Time, ToldThing, Verifier,
 };
 
 use super::live::SharedPage;
@@ -66,6 +66,15 @@ impl Observer for PageObserver<'_> {
 
     fn wants_telemetry(&self) -> bool {
         true
+    }
+
+    fn wants_picture(&self) -> bool {
+        self.page.borrow().hub().sight.is_due() || self.inner.wants_picture()
+    }
+
+    fn pictured(&mut self, image: Option<CameraImage>) {
+        self.page.borrow().hub().sight.take(image.clone());
+        self.inner.pictured(image);
     }
 
     fn moved(&mut self, moved: &Moved) {

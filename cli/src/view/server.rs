@@ -20,7 +20,7 @@ use axum::routing::{get, post};
 use axum::{Json, Router};
 use futures_util::stream::{self, Stream};
 use motet::workbench::Workbench;
-use motet_runtime::RunControl;
+use motet_runtime::{CameraImage, RunControl};
 use serde::Deserialize;
 use tokio::sync::{OwnedSemaphorePermit, Semaphore, watch};
 
@@ -144,6 +144,7 @@ fn router(shared: Arc<Shared>) -> Router {
         .route("/view.css", get(|| async { page("text/css; charset=utf-8", file::STYLE) }))
         .route("/licenses.txt", get(|| async { page("text/plain; charset=utf-8", file::LICENSES) }))
         .route("/events", get(events))
+        .route("/picture", get(picture))
         .route("/say", post(say))
         .route("/answer", post(answer))
         .route("/ask", post(ask).layer(DefaultBodyLimit::max(MOST_QUESTION_BYTES)))
@@ -214,6 +215,21 @@ async fn events(
     let cursor = Cursor { shared, news, position, batch, retry: Some(RETRY), _permit: permit };
     let keep = KeepAlive::new().interval(Duration::from_secs(10));
     Sse::new(items(cursor)).keep_alive(keep).into_response()
+}
+
+/// Latest picture of the robot's camera; nothing if there is none yet.
+async fn picture(State(shared): State<Arc<Shared>>, Query(access): Query<Access>) -> Response {
+    if !shared.token.is(&access.token) {
+        return refused(Refusal::Token);
+    }
+    let image = shared.hub.sight.want();
+    let kind = |image: &CameraImage| {
+        ["image/png", "image/jpeg"].into_iter().find(|known| *known == image.media_type)
+    };
+    match image.and_then(|image| Some((kind(&image)?, image))) {
+        Some((kind, image)) => ([(CONTENT_TYPE, kind)], image.bytes).into_response(),
+        None => StatusCode::NO_CONTENT.into_response(),
+    }
 }
 
 /// Place of a page in the items.

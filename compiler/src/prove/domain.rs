@@ -116,6 +116,10 @@ impl<'a> Domain<'a> for Prover<'a> {
     }
 
     fn enter(&mut self, id: StepId) -> bool {
+        self.control.work += 1 + self.state.volatile.len();
+        if self.is_exhausted() {
+            return false;
+        }
         if self.target.point == Some(id) {
             self.record_state();
         }

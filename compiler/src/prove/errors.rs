@@ -92,6 +92,11 @@ motet_syntax::mistakes! {
     message(m) { format!("loops, monitors and parallel branches are nested more than {} deep", m.limit) }
     help(_m) { Some("reduce the nesting".to_owned()) }
 
+    /// Nested loops and reactions that multiply the steps to prove.
+    TooCostly("M0804", Error) { }
+    message(_m) { "the nested loops, monitors and parallel branches are too many to prove".to_owned() }
+    help(_m) { Some("reduce the nesting, or the reactions that go on with `resume`".to_owned()) }
+
     /// No path reaches a step.
     Unreached("M0902", Warning) { }
     message(_m) { "this step is never reached".to_owned() }

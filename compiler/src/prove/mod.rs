@@ -29,6 +29,7 @@ pub(crate) use self::assume::mentions;
 
 use self::collector::Collector;
 use self::effects::{FactChange, PerceptionLifetime};
+use self::errors::TooCostly;
 use self::evaluation::CallFrame;
 use self::suspended::{ProofInput, ProofTarget};
 use self::symbols::Symbols;
@@ -41,6 +42,10 @@ use crate::ir::{Condition, Entity, Fluent, Measure, Program, StepId};
 
 /// Maximal nesting of loops and parallel branches: each level is proved at least twice.
 pub const MAX_FIXPOINTS: usize = 8;
+/// Work of a proof after which it is given up, in visits of steps: nested loops and reactions multiply them.
+const MAX_WORK: usize = 1_000_000;
+/// The same for each step of a policy with very many.
+const MAX_WORK_OF_STEP: usize = 30;
 
 /// Verdict on one need of a step.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -191,6 +196,8 @@ pub(crate) struct Control {
     fixpoints: usize,
     /// Number of enclosing runs that only find the effects of a reaction.
     rehearsals: usize,
+    /// Visits of steps so far, each counted once and once more for each fact that a reaction may change there.
+    work: usize,
 }
 
 /// Purpose of a proof.
@@ -274,7 +281,12 @@ pub(crate) fn prove(
         let last = last.and_then(|id| program.step(id));
         prover.check_end(end, last.map_or(program.span, |step| step.span));
     }
-    prover.report_unreached();
+    if prover.is_exhausted() {
+        // What was not visited may be reachable.
+        prover.diagnostics.push(TooCostly { span: program.span }.into());
+    } else {
+        prover.report_unreached();
+    }
     (prover.proof, prover.diagnostics)
 }
 
@@ -317,6 +329,11 @@ impl<'a> Prover<'a> {
             states_at_point: Vec::new(),
             buffers: Default::default(),
         }
+    }
+
+    /// Returns whether the proof has taken too long, and was given up.
+    pub(crate) fn is_exhausted(&self) -> bool {
+        self.control.work > MAX_WORK.max(MAX_WORK_OF_STEP * self.program.steps.len())
     }
 
     /// Notifies the observer of a problem.

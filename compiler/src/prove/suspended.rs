@@ -228,7 +228,7 @@ impl Prover<'_> {
     }
 
     pub(crate) fn is_refuted(&self) -> bool {
-        self.diagnostics.iter().any(|said| said.severity == Severity::Error)
+        self.is_exhausted() || self.diagnostics.iter().any(|said| said.severity == Severity::Error)
     }
 
     /// Records the state at the program point, weakened by the reactions around it.

@@ -5,7 +5,7 @@ use crate::effect::{DeferredMotion, Effect, Fault, RunEnd};
 use crate::engine::Engine;
 use crate::event::{DriverEvent, Event, Verification};
 use crate::ids::CheckId;
-use crate::perception::Detection;
+use crate::perception::{CameraImage, Detection};
 use crate::query::{Answer, Query};
 use crate::swap::{PreparedSwap, RetiredGraph, SwapRefusal};
 use crate::telemetry::{Heard, Moved, ToldThing};
@@ -56,6 +56,14 @@ pub trait Observer {
 
     /// The driver sent telemetry. It may have a time before that of the last event.
     fn moved(&mut self, _moved: &Moved) {}
+
+    /// True if it wants a picture of the robot's camera now. To take one may keep the driver busy for a moment.
+    fn wants_picture(&self) -> bool {
+        false
+    }
+
+    /// Takes in the picture that it wanted; `None` if the driver has none.
+    fn pictured(&mut self, _image: Option<CameraImage>) {}
 
     /// The driver saw something new. Returns the facts that follow from it, which the engine then takes for
     /// observed ([`Event::Noticed`]).
@@ -234,6 +242,10 @@ impl RunLoop<'_> {
             while let Some(moved) = self.driver.telemetry() {
                 self.observer.moved(&moved);
             }
+        }
+        if self.observer.wants_picture() {
+            let view = self.driver.look(self.now, None);
+            self.observer.pictured(view.map(|view| view.image));
         }
         while let Some(seen) = self.driver.detected() {
             let noticed = self.observer.detected(self.now, &seen, engine).into_iter();

@@ -7,13 +7,16 @@ use motet_graph::NodeKind;
 use motet_requests::{Aim, Certainty, RequestContext};
 use motet_stdlib::lang::{entities, primitives};
 use motet_syntax::ast::{Clause, Expr, ExprKind, File, Item};
-use motet_syntax::{Diagnostic, FileId, Parsed, Severity, Source, Span, Syntax, print};
+use motet_syntax::{Code, Diagnostic, FileId, Parsed, Severity, Source, Span, Syntax, print};
 use smol_str::SmolStr;
 
 use crate::planned::Planned;
 
 /// Maximum number of fixes to one reply.
 const MOST_FIXES: usize = 8;
+
+/// Maximum length of the policy of a reply, as Motet prints it, in bytes: about a thousand steps.
+const MOST_BYTES: usize = 32 << 10;
 
 /// Verdict on a reply.
 #[derive(Clone, Debug)]
@@ -44,6 +47,10 @@ pub fn judge(session: &Session, reply: &str) -> ReplyVerdict {
         let items = parsed.file.items.iter().filter(|item| matches!(item, Item::Policy(_)));
         parsed = read(&motet_syntax::print::text(&File { items: items.cloned().collect() }));
     }
+    let length = print::text(&parsed.file).len();
+    if length > MOST_BYTES {
+        return ReplyVerdict::Bad { findings: vec![too_long(&parsed, length)] };
+    }
     let findings = errors(session.compile(&parsed, None).diagnostics);
     let (mut mended, mut changed) = (Vec::new(), Vec::new());
     if !findings.is_empty() {
@@ -70,6 +77,25 @@ pub fn judge(session: &Session, reply: &str) -> ReplyVerdict {
         planned: Box::new(Planned { text, parsed, compiled, looked_at: 0 }),
         mended,
         changed,
+    }
+}
+
+/// Error of a policy that is longer than a model may write.
+fn too_long(parsed: &Parsed, length: usize) -> Diagnostic {
+    let first = parsed.file.items.iter().find_map(|item| match item {
+        Item::Policy(policy) => Some(policy.span),
+        _ => None,
+    });
+    Diagnostic {
+        code: Code("M0112"),
+        severity: Severity::Error,
+        message: format!("the policy has {length} bytes; that of a reply has at most {MOST_BYTES}"),
+        help: Some("use `repeat` or `each` for similar steps".to_owned()),
+        span: first.unwrap_or_default(),
+        path: String::new(),
+        related: Vec::new(),
+        fix: None,
+        about: None,
     }
 }
 

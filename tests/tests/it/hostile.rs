@@ -68,6 +68,16 @@ fn session_loops_nested_too_deep_are_refused() {
 }
 
 #[test]
+fn session_a_proof_of_nested_reactions_is_given_up() {
+    let nested = |depth: usize| {
+        let open = "monitor { when not visible(mug_1) then resume at most 5 { go(user) ".repeat(depth);
+        format!("policy p {{ {open} say(\"x\") {} }}", "} } during { go(counter) }".repeat(depth))
+    };
+    assert!(!codes(&nested(3)).contains(&"M0804".to_owned()));
+    assert!(codes(&nested(8)).contains(&"M0804".to_owned()));
+}
+
+#[test]
 fn session_twenty_nested_branches_do_not_explode() {
     let depth = 20;
     let open = "if near(user) { go(user) ".repeat(depth);

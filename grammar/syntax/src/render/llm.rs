@@ -3,7 +3,7 @@
 
 use std::fmt::Write as _;
 
-use indexmap::IndexMap;
+use indexmap::{IndexMap, IndexSet};
 
 use super::escaped;
 use crate::diagnostic::{Diagnostic, Severity};
@@ -13,25 +13,29 @@ use crate::source::Sources;
 /// byte-pair encodings, these are 80 tokens.
 pub const MAX_CHARS: usize = 320;
 
-/// One line a finding: errors in the order in which the steps run, the goal after them, then warnings and
-/// notes. What several steps have in common is told once, with all of them. A syntax error has no step, but
-/// the number of its line in `sources`, if it is there.
+/// One line a finding, at most 50 of them: errors in the order in which the steps run, the goal after them,
+/// then warnings and notes. What several steps have in common is told once, with all of them. A syntax error
+/// has no step, but the number of its line in `sources`, if it is there.
 #[must_use]
 pub fn llm(diagnostics: &[Diagnostic], sources: &Sources) -> String {
     let mut order: Vec<&Diagnostic> = diagnostics.iter().collect();
     order.sort_by_key(|said| (std::cmp::Reverse(said.severity), rank(said), said.span));
     let mut text = String::new();
-    let mut told: IndexMap<Said<'_>, Vec<Place>> = IndexMap::new();
+    let mut told: IndexMap<Said<'_>, IndexSet<Place>> = IndexMap::new();
     for said in order {
         let advice = said.fix.as_ref().map(|fix| &fix.title).or(said.help.as_ref());
         let place = place_of(&said.path).or_else(|| line_of(said, sources));
         let kind = place.as_ref().map(Place::kind);
         let key = (said.severity, said.message.as_str(), advice.map(String::as_str), kind);
         let places = told.entry(key).or_default();
-        places.extend(place.filter(|place| !places.contains(place)));
+        places.extend(place);
     }
-    for ((severity, message, advice, _), places) in told {
-        line(&mut text, severity, message, advice, &places);
+    let more = told.len().saturating_sub(MAX_LINES);
+    for ((severity, message, advice, _), places) in told.into_iter().take(MAX_LINES) {
+        line(&mut text, severity, message, advice, &places.into_iter().collect::<Vec<_>>());
+    }
+    if more > 0 {
+        let _ = writeln!(text, "There are {more} more findings.");
     }
     escaped(&text)
 }
@@ -40,7 +44,7 @@ pub fn llm(diagnostics: &[Diagnostic], sources: &Sources) -> String {
 type Said<'d> = (Severity, &'d str, Option<&'d str>, Option<&'d str>);
 
 /// Place of a finding in a document.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
 enum Place {
     /// A step, such as `2.then.1`, or `finally.1` in the cleanup of the policy.
     Step(String),
@@ -93,6 +97,8 @@ fn rank(said: &Diagnostic) -> u8 {
     }
 }
 
+/// The most findings that are told.
+const MAX_LINES: usize = 50;
 /// The most steps that one finding names.
 const MAX_PLACES: usize = 5;
 

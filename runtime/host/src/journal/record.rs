@@ -4,8 +4,8 @@ use super::{JournalError, JournalWriter};
 use motet_graph::Graph;
 use motet_runtime::journal::must_be_durable;
 use motet_runtime::{
-    Answer, Detection, Effect, Engine, Event, Heard, Moved, Observer, PreparedSwap, Query, RetiredGraph,
-    RunControl, SwapRefusal, Time, ToldThing, Verifier,
+    Answer, CameraImage, Detection, Effect, Engine, Event, Heard, Moved, Observer, PreparedSwap, Query,
+    RetiredGraph, RunControl, SwapRefusal, Time, ToldThing, Verifier,
 };
 use std::sync::Arc;
 
@@ -88,6 +88,14 @@ impl Observer for RunRecorder<'_> {
 
     fn wants_telemetry(&self) -> bool {
         self.inner.wants_telemetry()
+    }
+
+    fn wants_picture(&self) -> bool {
+        self.inner.wants_picture()
+    }
+
+    fn pictured(&mut self, image: Option<CameraImage>) {
+        self.inner.pictured(image);
     }
 
     fn moved(&mut self, moved: &Moved) {
