@@ -11,7 +11,9 @@ use std::rc::Rc;
 
 use motet::run::run_id;
 use motet_planner::dialogue::{Conversation, DialogueSetup, Outcome};
+use motet_project::SavedProject;
 use motet_runtime::{Driver, Time};
+use serde_json::json;
 
 pub(crate) use flags::ConversationArgs;
 use observer::RunObserver;
@@ -47,6 +49,9 @@ pub(crate) fn converse(
     let operator = Rc::new(OperatorInput::read(&args.ask, args.live, page.as_ref())?);
     let mut prompt = OperatorPrompt { input: Rc::clone(&operator), page: page.clone() };
     let record = args.record.as_deref().map(ConversationRecord::create).transpose()?;
+    if let (Some(record), Some(project)) = (&record, SavedProject::of(opened)) {
+        record.write("opened", json!({"project": project}));
+    }
     let run = run_id();
     let subject = RunSubject { run: &run, policy: None, opened };
     let ready = open_driver(&args.driver, &args.session.environment, &subject, report)?;

@@ -180,6 +180,8 @@ pub(crate) struct Runner<'a> {
     pub(crate) engine: Engine,
     pub(crate) driver: &'a mut dyn Driver,
     pub(crate) journal: Option<JournalWriter>,
+    /// `true` if the run can be simulated again, so that its motion need not be written down.
+    pub(crate) is_simulated: bool,
     /// Present time of the driver.
     pub(crate) from: Time,
     /// First events of the engine.
@@ -215,7 +217,8 @@ impl Runner<'_> {
         let end = match self.journal {
             None => resume(&mut self.engine, self.driver, onlooker, self.from, self.events),
             Some(writer) => {
-                let mut recorder = RunRecorder::new(writer, onlooker);
+                let recorder = RunRecorder::new(writer, onlooker);
+                let mut recorder = if self.is_simulated { recorder } else { recorder.with_motion() };
                 let end = resume(&mut self.engine, self.driver, &mut recorder, self.from, self.events);
                 recorder.finish().map_err(journal_error)?;
                 end

@@ -138,6 +138,7 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
     let engine = engine(graph, &start, driver.capabilities(), guard.as_ref(), settings)?;
     // The simulated person of a script answers the questions of policies.
     let has_person = page.is_some() && args.driver.answers.is_none();
+    let is_simulated = matches!(&saved, Some(SavedDriver::Simulator(_)));
     let journal = match args.record.as_deref().zip(saved) {
         Some((folder, saved)) => {
             let saved = if has_person { saved.with_person() } else { saved };
@@ -166,7 +167,7 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
     let paced = PacedView::new(view, speed).with_guard(guard).with_room(opened.scene.clone());
     let paced = with_desk(paced, page.as_ref(), Some(Arc::clone(&shared)), args, (colors, clock));
     let events = vec![Event::Begin];
-    Runner { engine, driver, journal, from: Time::ZERO, events }.run(paced, beginning)
+    Runner { engine, driver, journal, is_simulated, from: Time::ZERO, events }.run(paced, beginning)
 }
 
 /// The view with a desk of policies that are to take over, if the run has a page to offer them.
@@ -304,6 +305,7 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
     note(&format!("resumed at {} after {} entries, {goals} open{cut}", replay.now(), entries.len()));
     let paced = paced.with_guard(guard);
     let paced = with_desk(paced, page.as_ref(), opened.flatten(), args, (colors, clock));
+    let is_simulated = matches!(&saved, SavedDriver::Simulator(_));
     let driver: Box<dyn Driver> = match (saved, simulator) {
         (SavedDriver::Process { address, instance, .. }, _) => {
             let hello = Hello { resumed: true, ..Hello::of(replay.engine().graph(), &run) };
@@ -318,7 +320,8 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
     let mut driver = driver;
     let engine = replay.into_engine();
     let beginning = page.map(|page| (page, Beginning::Entry(entries.len() as u64 + 1)));
-    Runner { engine, driver: &mut *driver, journal: Some(writer), from, events }.run(paced, beginning)
+    let runner = Runner { engine, driver: &mut *driver, journal: Some(writer), is_simulated, from, events };
+    runner.run(paced, beginning)
 }
 
 /// Driver of a journal at the address that the flags give again. A journal is data, and its author may be

@@ -141,7 +141,7 @@ impl DialogueRecorder for RunJournal {
                 return motet_runtime::run(engine, driver, &mut Stopped, from);
             }
         };
-        let mut writing = RunRecorder::new(writer, onlooker);
+        let mut writing = RunRecorder::new(writer, onlooker).with_motion();
         let end = motet_runtime::run(engine, driver, &mut writing, from);
         if let Err(error) = writing.finish() {
             record.keep_error(journal_error(error));

@@ -3,6 +3,7 @@
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 
+use motet_project::SavedProject;
 use motet_runtime::journal::JournalEntry;
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -27,6 +28,14 @@ struct TalkLine {
     file: String,
     why: String,
     outcome: String,
+    project: Option<SavedProject>,
+}
+
+/// Robot and room of the conversation in a folder, if it names them.
+pub(crate) fn project(folder: &Path) -> Option<SavedProject> {
+    let bytes = motet_project::files::read_small(&folder.join(TALK)).ok()?;
+    let first = bytes.split(|byte| *byte == b'\n').next()?;
+    serde_json::from_slice::<TalkLine>(first).ok()?.project
 }
 
 /// Folder of a conversation.

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use motet_host::journal::JournalError;
+use motet_host::journal::{JournalError, MotionReader};
 use motet_project::{DiagnosticSink, ProjectSession, SavedDriver};
 use motet_runtime::journal::{DriverReplay, JournalEntry};
 use motet_runtime::{Driver as _, Time};
@@ -30,6 +30,8 @@ pub(crate) struct JournalFolder {
     /// Bytes of the folder when it was read last.
     bytes: u64,
     simulation: Option<Simulation>,
+    /// Telemetry that was written down, where the run cannot be simulated again.
+    motion: MotionReader,
 }
 
 /// Simulation along the journal, for motion.
@@ -44,7 +46,13 @@ struct Simulation {
 impl JournalFolder {
     /// Journal in a folder of which nothing is read yet.
     pub(crate) fn new(folder: &Path) -> Self {
-        Self { folder: folder.to_owned(), next: 0, bytes: 0, simulation: None }
+        Self {
+            folder: folder.to_owned(),
+            next: 0,
+            bytes: 0,
+            simulation: None,
+            motion: MotionReader::default(),
+        }
     }
 
     /// Reads what is new, and gives each entry to the page after `before` has seen it. False if nothing is.
@@ -93,6 +101,11 @@ impl JournalFolder {
         {
             note("from here on the simulation differs from the journal: the page shows no motion");
             self.simulation = None;
+        }
+        if self.simulation.is_none()
+            && let Some((at, _)) = entry.happened()
+        {
+            self.motion.until(&self.folder, at, &mut |moved| page.moved(moved));
         }
     }
 }
@@ -150,8 +163,9 @@ pub(crate) fn session(folder: &Path, sink: &mut dyn DiagnosticSink) -> Option<Pr
             head.get_or_insert(found);
         }
     });
-    let saved = SavedDriver::from_json(&head?.driver).ok()?;
-    match saved.project()?.session(sink) {
+    let saved = head.and_then(|head| SavedDriver::from_json(&head.driver).ok());
+    let project = saved.as_ref().and_then(SavedDriver::project).cloned();
+    match project.or_else(|| super::conversation::project(folder))?.session(sink) {
         Ok(Some(opened)) => Some(opened),
         Ok(None) => {
             note("the scene has changed since the run: the page shows no room");

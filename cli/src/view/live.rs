@@ -138,11 +138,7 @@ impl LivePage {
     /// Takes in a report of motion.
     pub(crate) fn moved(&mut self, moved: &Moved) {
         let Some(world) = &mut self.feed.world else { return };
-        let Moved { at, base, joints, things } = &mut self.unsent;
-        (*at, *base) = (moved.at, moved.base);
-        joints.extend(moved.joints.clone());
-        things.retain(|known| moved.things.iter().all(|thing| thing.id != known.id));
-        things.extend(moved.things.iter().cloned());
+        self.unsent.merge(moved);
         if self.hub.wants_motion(moved.at) {
             self.hub.moved(&world.moved(&std::mem::take(&mut self.unsent)));
         }

@@ -22,6 +22,16 @@ pub struct Moved {
     pub things: Vec<MovedThing>,
 }
 
+impl Moved {
+    /// Takes in later telemetry, of which what has not changed may be left out.
+    pub fn merge(&mut self, later: &Self) {
+        (self.at, self.base) = (later.at, later.base);
+        self.joints.extend(later.joints.clone());
+        self.things.retain(|known| later.things.iter().all(|thing| thing.id != known.id));
+        self.things.extend(later.things.iter().cloned());
+    }
+}
+
 /// Pose of a thing.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct MovedThing {

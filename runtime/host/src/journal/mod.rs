@@ -5,10 +5,12 @@
 //! ([`motet_runtime::journal::must_be_durable`]), and with others otherwise, see [`SyncGrouping`]. A folder
 //! is written by one process at a time; a lock that the system takes back when the process ends sees to it.
 
+mod motion;
 mod read;
 mod record;
 mod write;
 
+pub use motion::MotionReader;
 pub use read::{JournalError, JournalTail, read};
 pub use record::RunRecorder;
 pub use write::{JournalWriter, SyncGrouping};

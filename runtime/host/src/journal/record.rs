@@ -1,5 +1,6 @@
 //! Writes down a run while it goes on.
 
+use super::motion::MotionFile;
 use super::{JournalError, JournalWriter};
 use motet_graph::Graph;
 use motet_runtime::journal::must_be_durable;
@@ -16,6 +17,7 @@ pub struct RunRecorder<'a> {
     inner: &'a mut dyn Observer,
     cause: Option<Cause>,
     error: Option<JournalError>,
+    motion: Option<MotionFile>,
 }
 
 /// Cause of the next effects.
@@ -29,7 +31,14 @@ enum Cause {
 impl<'a> RunRecorder<'a> {
     /// Writes to a journal and looks on with another one.
     pub fn new(writer: JournalWriter, inner: &'a mut dyn Observer) -> Self {
-        Self { writer, inner, cause: None, error: None }
+        Self { writer, inner, cause: None, error: None, motion: None }
+    }
+
+    /// Writes telemetry beside the journal, too. A run whose driver can be simulated again needs none.
+    #[must_use]
+    pub fn with_motion(mut self) -> Self {
+        self.motion = MotionFile::open(self.writer.folder());
+        self
     }
 
     /// Waits until everything is on disk.
@@ -87,7 +96,7 @@ impl Observer for RunRecorder<'_> {
     }
 
     fn wants_telemetry(&self) -> bool {
-        self.inner.wants_telemetry()
+        self.motion.is_some() || self.inner.wants_telemetry()
     }
 
     fn wants_picture(&self) -> bool {
@@ -99,6 +108,7 @@ impl Observer for RunRecorder<'_> {
     }
 
     fn moved(&mut self, moved: &Moved) {
+        self.motion.iter_mut().for_each(|motion| motion.write(moved));
         self.inner.moved(moved);
     }
 

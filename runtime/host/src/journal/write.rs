@@ -95,6 +95,11 @@ impl JournalWriter {
         Ok(writer)
     }
 
+    /// Folder of the journal.
+    pub(super) fn folder(&self) -> &Path {
+        &self.folder
+    }
+
     /// Goes on with the journal in a folder. Every entry is given to `take`; then a torn tail is cut off, and
     /// the cut synced, before anything is appended. The tail tells how much was cut.
     ///

@@ -206,6 +206,11 @@ impl DetectedThing {
 }
 
 impl MovedParams {
+    /// Message of telemetry, with its time.
+    pub(crate) fn of(Moved { at, base, joints, things }: Moved) -> Self {
+        Self { at: Some(at.secs()), base, joints, things }
+    }
+
     /// Telemetry within bounds; `None` where the base is nowhere.
     pub(crate) fn moved(self, now: Time, owns_clock: bool) -> Option<Moved> {
         let Self { at, base, joints, things } = self;
