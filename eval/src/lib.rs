@@ -22,6 +22,7 @@ use std::ops::ControlFlow;
 use std::time::Duration;
 
 use indexmap::IndexMap;
+use indicatif::{ProgressBar, ProgressStyle};
 use motet::batch::{self, Shard};
 use motet_compiler::Session;
 use motet_syntax::{Diagnostic, Severity, Source, Sources};
@@ -143,15 +144,27 @@ impl Default for Workers {
     }
 }
 
+/// Bar with the rate and the time that is left, on a terminal.
+fn progress(items: u64) -> ProgressBar {
+    let bar = ProgressBar::new(items);
+    match ProgressStyle::with_template("{wide_bar} {pos}/{len} {per_sec} {eta}") {
+        Ok(style) => bar.with_style(style),
+        Err(_) => bar,
+    }
+}
+
 impl Workers {
     /// Runs something on each item of the share; the results are in the order of the items.
     pub fn spread<T: Send, R: Send>(self, items: Vec<T>, run: impl Fn(T) -> R + Sync) -> Vec<R> {
         let items = items.into_iter().enumerate().filter(|(index, _)| self.shard.has(*index));
-        let mut done = Vec::new();
-        let _ = batch::in_order(self.jobs, 1, items.map(|(_, item)| item), run, |result| {
+        let items: Vec<T> = items.map(|(_, item)| item).collect();
+        let (bar, mut done) = (progress(items.len() as u64), Vec::new());
+        let _ = batch::in_order(self.jobs, 1, items, run, |result| {
             done.push(result);
+            bar.inc(1);
             ControlFlow::<()>::Continue(())
         });
+        bar.finish_and_clear();
         done
     }
 }

@@ -10,7 +10,7 @@ use motet_robots::clearance::ClearanceOverride;
 use crate::error::{CliError, Exit};
 use crate::flags::{ClearanceArgs, OutputFormat, settings_of};
 use crate::output::{Colors, replace_file};
-use crate::report::Report;
+use crate::report::{Progress, Report};
 
 /// Flags of `motet feasible`.
 #[derive(Args, Debug)]
@@ -75,11 +75,14 @@ fn answer(args: &FeasibleArgs, report: &mut Report) -> Result<Exit, CliError> {
         clearance: args.clearance.given().or(clearance),
     };
     let mut exit = Exit::Success;
+    let mut progress = None;
     let drawing = decide(&question, report, &mut |report, verdict| {
-        match args.format {
+        let progress = progress.get_or_insert_with(|| Progress::of_items(verdict.left + 1, "deciding"));
+        progress.suspend(|| match args.format {
             OutputFormat::Human => report.out.text(&verdict.text),
             OutputFormat::Json => report.out.line(&verdict.json),
-        }
+        });
+        progress.advance(1);
         if !args.all && !matches!(verdict.answer, MotionAnswer::Feasible(_)) {
             exit = Exit::Findings;
         }

@@ -39,7 +39,8 @@ use crate::run_view::{Clock, view};
 use crate::runner::{Beginning, PacedView, Runner, connect, exit_of};
 use crate::swap_desk::SwapDesk;
 use crate::view::answered::AnsweredQuestions;
-use crate::view::journal::{recorded_text, session};
+use crate::view::conversation::session;
+use crate::view::journal::recorded_text;
 use crate::view::live::{LivePage, SharedPage};
 use motet::page::source::PolicyText;
 

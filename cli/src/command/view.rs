@@ -15,10 +15,10 @@ use crate::flags::{DiagnosticFormat, EnvironmentArgs, address};
 use crate::interrupt::{SLICE, catch_interrupts, is_interrupted};
 use crate::output::{Colors, note, replace_file};
 use crate::report::Report;
-use crate::view::conversation::{ConversationFolder, TALK};
+use crate::view::conversation::{ConversationFolder, TALK, session};
 use crate::view::file;
 use crate::view::hub::Hub;
-use crate::view::journal::{JournalFolder, session};
+use crate::view::journal::JournalFolder;
 use crate::view::live::LivePage;
 
 /// Shortest time between two looks at a journal that is still written.

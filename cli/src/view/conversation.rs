@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 
-use motet_project::SavedProject;
+use motet_project::{DiagnosticSink, ProjectSession, SavedDriver, SavedProject};
 use motet_runtime::journal::JournalEntry;
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -11,6 +11,7 @@ use serde_json::{Value, json};
 use super::journal::JournalFolder;
 use super::live::LivePage;
 use crate::error::CliError;
+use crate::output::note;
 use motet::page::source::PolicyText;
 
 /// File with the lines of a conversation.
@@ -32,10 +33,34 @@ struct TalkLine {
 }
 
 /// Robot and room of the conversation in a folder, if it names them.
-pub(crate) fn project(folder: &Path) -> Option<SavedProject> {
+fn project_of(folder: &Path) -> Option<SavedProject> {
     let bytes = motet_project::files::read_small(&folder.join(TALK)).ok()?;
     let first = bytes.split(|byte| *byte == b'\n').next()?;
     serde_json::from_slice::<TalkLine>(first).ok()?.project
+}
+
+/// Session of the run whose journal is in a folder, for its robot and its room; `None` where it names none or
+/// they have changed since.
+pub(crate) fn session(folder: &Path, sink: &mut dyn DiagnosticSink) -> Option<ProjectSession> {
+    let mut head = None;
+    let _ = motet_host::journal::read(folder, &mut |_, entry| {
+        if let JournalEntry::Head(found) = entry {
+            head.get_or_insert(found);
+        }
+    });
+    let saved = head.and_then(|head| SavedDriver::from_json(&head.driver).ok());
+    let project = saved.as_ref().and_then(SavedDriver::project).cloned();
+    match project.or_else(|| project_of(folder))?.session(sink) {
+        Ok(Some(opened)) => Some(opened),
+        Ok(None) => {
+            note("the scene has changed since the run: the page shows no room");
+            None
+        }
+        Err(error) => {
+            note(&format!("the page shows no room: {}", CliError::from(error)));
+            None
+        }
+    }
 }
 
 /// Folder of a conversation.

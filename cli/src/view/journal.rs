@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use motet_host::journal::{JournalError, MotionReader};
-use motet_project::{DiagnosticSink, ProjectSession, SavedDriver};
+use motet_project::SavedDriver;
 use motet_runtime::journal::{DriverReplay, JournalEntry};
 use motet_runtime::{Driver as _, Time};
 use motet_sim::Sim;
@@ -151,30 +151,6 @@ impl Simulation {
 fn show(sim: &mut Sim, page: &mut LivePage) {
     while let Some(moved) = sim.telemetry() {
         page.moved(&moved);
-    }
-}
-
-/// Session of the run whose journal is in a folder, for its robot and its room; `None` where it names none or
-/// they have changed since.
-pub(crate) fn session(folder: &Path, sink: &mut dyn DiagnosticSink) -> Option<ProjectSession> {
-    let mut head = None;
-    let _ = motet_host::journal::read(folder, &mut |_, entry| {
-        if let JournalEntry::Head(found) = entry {
-            head.get_or_insert(found);
-        }
-    });
-    let saved = head.and_then(|head| SavedDriver::from_json(&head.driver).ok());
-    let project = saved.as_ref().and_then(SavedDriver::project).cloned();
-    match project.or_else(|| super::conversation::project(folder))?.session(sink) {
-        Ok(Some(opened)) => Some(opened),
-        Ok(None) => {
-            note("the scene has changed since the run: the page shows no room");
-            None
-        }
-        Err(error) => {
-            note(&format!("the page shows no room: {}", CliError::from(error)));
-            None
-        }
     }
 }
 

@@ -228,6 +228,9 @@ fn a_conversation_is_recorded_and_replays() {
     assert_eq!(entries.iter().filter(|entry| entry.get("swap").is_some()).count(), 1, "{entries:?}");
     let ran = place.run(&format!("replay talk/{run} --at 1000s"));
     ran.check(0, &["out:revision 1"]);
+    let world = "--robot hsr --scene kitchen";
+    place.run(&format!("view talk -o talk.html {world}")).check(0, &["err:wrote"]);
+    assert!(place.read("talk.html").contains(r#""t":"moved""#), "the page shows the motion");
     place.run(&format!("run --resume talk/{run}")).check(2, &["err:can be replayed but not resumed"]);
     place.run_args(&words).check(2, &["err:talk.jsonl"]);
 }

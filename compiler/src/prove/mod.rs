@@ -196,7 +196,7 @@ pub(crate) struct Control {
     fixpoints: usize,
     /// Number of enclosing runs that only find the effects of a reaction.
     rehearsals: usize,
-    /// Visits of steps so far, each counted once and once more for each fact that a reaction may change there.
+    /// Visits of steps so far. Each counts once, and once more for each fact that a reaction may change.
     work: usize,
 }
 

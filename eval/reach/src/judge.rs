@@ -7,6 +7,7 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use indicatif::ProgressBar;
 use motet_geometry::planning::{MotionAnswer, MotionQuery, QueryContext, SceneState, SearchBudget};
 use motet_robots::scene::{self, Scene};
 use motet_syntax::{FileId, Source};
@@ -90,7 +91,9 @@ pub fn run(settings: &Settings) -> Result<(Vec<String>, Vec<Table>), String> {
         let model = robot(name).ok_or_else(|| format!("there is no robot `{name}` with a hand"))?;
         let mut cache = Cache::read(settings, &model, name);
         let (mut cases, mut answered) = (Vec::new(), Answered::default());
+        let bar = ProgressBar::new(settings.rooms);
         for seed in settings.seed..settings.seed + settings.rooms {
+            bar.set_position(seed - settings.seed);
             let scene = match &settings.scene {
                 Some(text) => scene::read(&Source::new("scene.json", text.as_str()), FileId(0))
                     .0
@@ -108,6 +111,7 @@ pub fn run(settings: &Settings) -> Result<(Vec<String>, Vec<Table>), String> {
                 break;
             }
         }
+        bar.finish_and_clear();
         if settings.is_unjudged {
             lines.extend(answered.lines(name));
             continue;

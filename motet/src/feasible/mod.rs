@@ -49,6 +49,8 @@ pub struct MotionVerdict {
     pub text: String,
     /// Answer as a JSON object on one line.
     pub json: String,
+    /// Number of motions that are decided after it.
+    pub left: usize,
 }
 
 /// Decides motions one after the other, and gives each verdict to `each`, with the sink, at once. Returns a
@@ -129,7 +131,9 @@ pub fn decide_in(
     let room = QueryContext::new(machine, scene, &world);
     let budget = SearchBudget::default().times(usize::from(effort));
     let mut answered = Vec::new();
-    for query in queries {
+    let queries: Vec<MotionQuery> = queries.into_iter().collect();
+    let count = queries.len();
+    for (number, query) in queries.into_iter().enumerate() {
         let mut answer = room.answer(&query, budget);
         if let MotionAnswer::Infeasible(why) = &mut answer {
             *why = room.explain(&query, why, budget);
@@ -137,7 +141,8 @@ pub fn decide_in(
         let text = answers::describe(&query, &answer);
         let json = answers::json_line(machine, &query, &answer);
         answered.push((query.clone(), answer.clone()));
-        if each(MotionVerdict { query, answer, text, json }).is_break() {
+        let left = count.saturating_sub(number + 1);
+        if each(MotionVerdict { query, answer, text, json, left }).is_break() {
             break;
         }
     }

@@ -57,7 +57,8 @@ pub trait Observer {
     /// The driver sent telemetry. It may have a time before that of the last event.
     fn moved(&mut self, _moved: &Moved) {}
 
-    /// True if it wants a picture of the robot's camera now. To take one may keep the driver busy for a moment.
+    /// True if it wants a picture of the robot's camera now. To take one may keep the driver busy for a
+    /// moment.
     fn wants_picture(&self) -> bool {
         false
     }
