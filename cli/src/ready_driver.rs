@@ -3,12 +3,13 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
+use motet::eyes::Eyes;
 use motet::run::{remote_settings, state_facts};
 use motet_graph::Graph;
+use motet_host::remote::DriverAddress;
 use motet_host::remote::protocol::Hello;
-use motet_host::remote::{DriverAddress, RemoteDriver};
 use motet_project::{DiagnosticSink, ProjectSession, SavedDriver, SavedProject, named_robot};
-use motet_runtime::{CameraImage, Driver, DriverClock, EngineSettings, Perception, RgbdView, Time};
+use motet_runtime::{Driver, DriverClock, EngineSettings, Time};
 use motet_sim::Sim;
 use motet_syntax::Parsed;
 use motet_syntax::ast::File;
@@ -37,29 +38,6 @@ pub(crate) struct RunSubject<'a> {
     /// Policy of the only run; `None` before a conversation.
     pub(crate) policy: Option<(&'a Graph, &'a Parsed)>,
     pub(crate) opened: &'a ProjectSession,
-}
-
-/// Pictures of a driver.
-#[derive(Clone)]
-pub(crate) enum Eyes {
-    Simulator(Rc<RefCell<Sim>>),
-    Process(Rc<RefCell<RemoteDriver>>),
-}
-
-impl Perception for Eyes {
-    fn image(&mut self, now: Time) -> Option<CameraImage> {
-        match self {
-            Self::Simulator(simulator) => simulator.image(now),
-            Self::Process(driver) => Some(driver.look(now, None)?.image),
-        }
-    }
-
-    fn view(&mut self, now: Time, of: &str) -> Option<RgbdView> {
-        match self {
-            Self::Simulator(simulator) => simulator.view(now, of),
-            Self::Process(driver) => driver.look(now, None),
-        }
-    }
 }
 
 /// Opens the driver of the flags.

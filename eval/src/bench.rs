@@ -9,10 +9,11 @@ use std::str::FromStr;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
+use motet::eyes::Eyes;
 use motet_host::journal::{JournalWriter, RunRecorder as JournalObserver, read};
 use motet_host::remote::protocol::Hello;
 use motet_host::remote::{DriverAddress, DriverTimeouts, RemoteDriver};
-use motet_planner::dialogue::{DialogueObserver, RunRecorder};
+use motet_planner::dialogue::{Conversation, DialogueObserver, RunRecorder};
 use motet_robots::card::Robot;
 use motet_robots::scene::{Scene, write};
 use motet_runtime::journal::JournalHead;
@@ -70,6 +71,8 @@ pub struct Bench {
     pub every: usize,
     /// Words of which a trial has one in its name, its robot or its request; without any, all trials are run.
     pub only: Vec<String>,
+    /// True if the planner gets a picture of the camera with every request.
+    pub has_pictures: bool,
 }
 
 impl Bench {
@@ -84,7 +87,16 @@ impl Bench {
         }
         let profile = motet_project::read_profile(world).map_err(|error| error.to_string())?;
         let (planner, workers) = (PlannerKind::Builtin, Workers::default());
-        Ok(Self { world: world.to_owned(), profile, driver, planner, workers, every: 1, only: Vec::new() })
+        Ok(Self {
+            world: world.to_owned(),
+            profile,
+            driver,
+            planner,
+            workers,
+            every: 1,
+            only: Vec::new(),
+            has_pictures: false,
+        })
     }
 
     /// True if a trial is asked for, by words that tell it from others.
@@ -103,7 +115,16 @@ impl Bench {
         let world = "ideal".to_owned();
         let (driver, planner) = (DriverKind::Kinematic, PlannerKind::Builtin);
         let (workers, only) = (Workers::default(), Vec::new());
-        Self { world, profile: Profile::default(), driver, planner, workers, every: 1, only }
+        Self {
+            world,
+            profile: Profile::default(),
+            driver,
+            planner,
+            workers,
+            every: 1,
+            only,
+            has_pictures: false,
+        }
     }
 
     /// A robot in a room: it was told the one, and the other is real.
@@ -122,7 +143,7 @@ impl Bench {
             let world = (told != real).then(|| real.clone());
             let options =
                 SimOptions { seed, faults, profile: self.profile.clone(), world, ..SimOptions::default() };
-            return Ok(TrialRobot::Kinematic(Box::new(Sim::new(robot, told, options))));
+            return Ok(TrialRobot::Kinematic(shared(Sim::new(robot, told, options))));
         }
         let folder = Folder::new()?;
         let file = |name: &str, scene: &Scene| {
@@ -142,8 +163,18 @@ impl Bench {
         let patience = DriverTimeouts { greeting: GREETING, step: STEP, ..DriverTimeouts::default() };
         let driver = RemoteDriver::connect(address, hello, patience, Time::ZERO, log);
         let driver = driver.map_err(|error| format!("the physics driver does not start: {error}"))?;
-        Ok(TrialRobot::Physics(Box::new(driver), folder))
+        Ok(TrialRobot::Physics(shared(driver), folder))
     }
+
+    /// The conversation with a robot, with its pictures if the trials have them.
+    #[must_use]
+    pub fn sighted<'a>(&self, talk: Conversation<'a>, robot: &TrialRobot) -> Conversation<'a> {
+        if self.has_pictures { talk.with_eyes(robot.eyes()) } else { talk }
+    }
+}
+
+fn shared<T>(of: T) -> Rc<RefCell<T>> {
+    Rc::new(RefCell::new(of))
 }
 
 /// A room in which everything that lies in something has a place on its bottom: physics has no thing without
@@ -171,25 +202,33 @@ fn motet_program() -> String {
 
 /// Robot of a trial.
 pub enum TrialRobot {
-    Kinematic(Box<Sim>),
+    Kinematic(Rc<RefCell<Sim>>),
     /// Physics, and the folder of its scene.
-    Physics(Box<RemoteDriver>, Folder),
+    Physics(Rc<RefCell<RemoteDriver>>, Folder),
 }
 
 impl TrialRobot {
     /// The driver.
     pub fn driver(&mut self) -> &mut dyn Driver {
         match self {
-            Self::Kinematic(sim) => &mut **sim,
-            Self::Physics(driver, _) => &mut **driver,
+            Self::Kinematic(sim) => sim,
+            Self::Physics(driver, _) => driver,
         }
     }
 
     /// Truth of a query in the world, which no belief of the robot colours; unknown where nobody can say.
     pub fn truth(&mut self, query: &Query) -> Answer {
         match self {
-            Self::Kinematic(sim) => sim.truth(query),
-            Self::Physics(driver, _) => driver.truth(query),
+            Self::Kinematic(sim) => sim.borrow().truth(query),
+            Self::Physics(driver, _) => driver.borrow_mut().truth(query),
+        }
+    }
+
+    /// Its pictures.
+    fn eyes(&self) -> Eyes {
+        match self {
+            Self::Kinematic(sim) => Eyes::Simulator(Rc::clone(sim)),
+            Self::Physics(driver, _) => Eyes::Process(Rc::clone(driver)),
         }
     }
 

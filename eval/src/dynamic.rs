@@ -142,7 +142,7 @@ fn play(
     let mut robot_in = bench.robot(&setting.robot, (&setting.scene, &setting.scene), index as u64, faults)?;
     let says = change_at.zip(instead).map(|(at, says)| (Time::from_secs(at), says));
     let mut observer = TrialObserver::new(says)?;
-    let mut talk = Conversation::new(&setting);
+    let mut talk = bench.sighted(Conversation::new(&setting), &robot_in);
     let (driver, mut planner) = (robot_in.driver(), bench.planner.make()?);
     let (outcome, end) =
         talk.carry_out(request, &mut *planner, driver, &mut NoOperator, &mut observer, Time::ZERO);

@@ -8,6 +8,7 @@
 //! - `dialogue` takes a file of wordings, `dynamic` the number of trials for each task and robot. Both take
 //!   `--world ideal|typical|harsh|FILE`, `--driver kinematic|mujoco`, and `--planner builtin|tree|one-shot|
 //!   forgetful|[few-shot:]URL|[few-shot:]file:REPLIES` with `--model M`.
+//!   `--pictures` gives the planner a picture of the camera with every request.
 //! - `tasks [FILE…] [--trials N]` plays the tasks of the papers, with the same flags. `--jobs N` plays so
 //!   many trials at once, `--only WORD` those with a word in their name, robot or request (`WORD+WORD` with
 //!   all of them), `dialogue --every N` each Nth case, and `dialogue --objects unseen` those with things that
@@ -64,6 +65,7 @@ struct Flags {
     workers: Workers,
     every: Option<usize>,
     seed: Option<u64>,
+    has_pictures: bool,
     only: Vec<String>,
     words: Vec<String>,
 }
@@ -76,6 +78,7 @@ impl Flags {
             match arg.as_str() {
                 "--json" => flags.only_json = true,
                 "--planned" => flags.is_planned = true,
+                "--pictures" => flags.has_pictures = true,
                 "--world" => flags.world = Some(value()?),
                 "--driver" => flags.driver = Some(value()?.parse()?),
                 "--planner" => flags.planner = Some(value()?),
@@ -112,7 +115,8 @@ impl Flags {
         let world = self.world.as_deref().unwrap_or(usual);
         let bench = Bench::new(world, self.driver.unwrap_or_default())?;
         let (workers, every) = (self.workers, self.every.unwrap_or(bench.every));
-        Ok(Bench { planner, workers, every, only: self.only.clone(), ..bench })
+        let (only, has_pictures) = (self.only.clone(), self.has_pictures);
+        Ok(Bench { planner, workers, every, only, has_pictures, ..bench })
     }
 
     /// True if a world, a driver, a planner or a part of the trials is asked for.
@@ -123,6 +127,7 @@ impl Flags {
             || self.trials.is_some()
             || self.every.is_some()
             || self.objects.is_some()
+            || self.has_pictures
             || !self.only.is_empty()
     }
 }
@@ -176,8 +181,8 @@ fn run() -> Result<bool, String> {
         let names: Vec<_> = SUITES.iter().map(|(name, _)| *name).collect();
         format!(
             "usage: eval {} FILE [--json], eval dialogue FILE|dynamic TRIALS [--world PROFILE] [--driver \
-             kinematic|mujoco] [--planner PLANNER] [--model M] [--jobs N] [--only WORD]… [--every N] \
-             [--objects seen|unseen], \
+             kinematic|mujoco] [--planner PLANNER] [--model M] [--pictures] [--jobs N] [--only WORD]… \
+             [--every N] [--objects seen|unseen], \
              eval tasks [FILE…] with the same flags and [--trials N], eval world RUNS with the same flags, \
              eval mutations, eval soundness POLICIES [--seed S], \
              eval physics --robot NAME [--scene S] [--seeds N] [--profile P], or \

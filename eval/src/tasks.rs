@@ -208,7 +208,7 @@ impl Task {
             geometry: Some(Arc::new(geometry)),
             options: CheckOptions::default(),
         };
-        let mut talk = Conversation::new(&setting);
+        let mut talk = bench.sighted(Conversation::new(&setting), &robot_in);
         let (asked, questions) = (Vec::new(), Vec::new());
         let mut person = Answers { left: self.answers.clone(), asked, questions };
         let mut planner = Timed::new(bench.planner.make()?);

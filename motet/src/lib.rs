@@ -4,6 +4,7 @@ pub mod batch;
 pub mod conformance;
 pub mod document;
 mod error;
+pub mod eyes;
 mod facade;
 pub mod feasible;
 pub mod page;

@@ -4,13 +4,14 @@
 mod btcpp;
 
 use std::fs::File;
-use std::io::BufWriter;
+use std::io::{BufRead as _, BufReader, BufWriter};
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
-use motet_host::mcap::{McapBody, McapExporter, McapScene, McapSolid};
+use motet_host::mcap::{ExportError, McapBody, McapExporter, McapLimits, McapScene, McapSolid};
 use motet_project::SavedDriver;
 use motet_robots::scene::{EntityShape, Scene};
+use motet_runtime::Time;
 use motet_runtime::journal::{DriverReplay, JournalEntry};
 use motet_sim::Sim;
 use motet_stdlib::lang;
@@ -18,6 +19,7 @@ use motet_stdlib::lang::kinds;
 
 use crate::error::{CliError, Exit, journal_error};
 use crate::output::{Colors, note, replace_with};
+use crate::report::Progress;
 
 /// Flags of `motet export`.
 #[derive(Args, Debug)]
@@ -45,6 +47,17 @@ struct McapArgs {
     /// File to write
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
+    /// States, and pictures of the scene, in a second of the run; events and effects are all written
+    #[arg(long, value_name = "HZ", default_value_t = 10.0, value_parser = rate)]
+    rate: f64,
+    /// Size of the file in MB from which on the rest of the run is left out
+    #[arg(long, value_name = "MB", default_value_t = 1024)]
+    max_size: u64,
+}
+
+fn rate(text: &str) -> Result<f64, String> {
+    let rate = text.parse().ok().filter(|rate: &f64| (0.001..=1e6).contains(rate));
+    rate.ok_or_else(|| "a rate is from 0.001 to 1000000".to_owned())
 }
 
 /// Runs the command.
@@ -57,19 +70,30 @@ pub(crate) fn run(args: &ExportArgs, colors: Colors) -> Result<Exit, CliError> {
 
 fn mcap(args: &McapArgs) -> Result<Exit, CliError> {
     // An earlier file, which may be the journal itself, stays until the new one is complete.
-    let entries = replace_with(&args.output, |file| write(&args.folder, file))?;
+    let (entries, left) = replace_with(&args.output, |file| write(args, file))?;
     note(&format!("wrote {entries} entries to {}", args.output.display()));
-    Ok(Exit::Success)
+    if left == 0 {
+        return Ok(Exit::Success);
+    }
+    note(&format!("{left} more entries are left out: the file has more than {} MB", args.max_size));
+    Ok(Exit::Findings)
 }
 
-/// Writes a journal as MCAP. Returns the number of its entries.
-fn write(folder: &Path, file: &File) -> Result<u64, CliError> {
-    let wrong = |error: motet_host::mcap::ExportError| CliError::Message(error.to_string());
-    let mut exporter = McapExporter::new(BufWriter::new(file)).map_err(wrong)?;
+/// Writes a journal as MCAP. Returns the numbers of entries that are in it, and that are not.
+fn write(args: &McapArgs, file: &File) -> Result<(u64, u64), CliError> {
+    let wrong = |error: ExportError| CliError::Message(error.to_string());
+    let limits = McapLimits {
+        every: Time::from_secs(1.0 / args.rate),
+        most_bytes: args.max_size.saturating_mul(1_000_000),
+    };
+    let mut exporter = McapExporter::new(BufWriter::new(file), limits).map_err(wrong)?;
+    let progress = Progress::of_items(lines(&args.folder), "exporting");
     let mut replay = None;
-    let (mut result, mut entries) = (Ok(()), 0);
-    let read = motet_host::journal::read(folder, &mut |seq, entry| {
+    let (mut result, mut entries, mut left) = (Ok(()), 0, 0);
+    let read = motet_host::journal::read(&args.folder, &mut |seq, entry| {
+        progress.advance(1);
         if result.is_err() {
+            left += 1;
             return;
         }
         if let JournalEntry::Head(head) = &entry {
@@ -77,11 +101,35 @@ fn write(folder: &Path, file: &File) -> Result<u64, CliError> {
         }
         let picture = replay.as_mut().and_then(|replay: &mut SceneReplay| replay.after(&entry));
         result = exporter.entry(seq, &entry, picture);
-        entries += 1;
+        if result.is_ok() { entries += 1 } else { left += 1 }
     });
     read.map_err(journal_error)?;
+    if let Err(ExportError::Full(_)) = result {
+        result = Ok(());
+    }
     result.and_then(|()| exporter.finish()).map_err(wrong)?;
-    Ok(entries)
+    Ok((entries, left))
+}
+
+/// Number of lines of a journal, for its bar.
+fn lines(folder: &Path) -> usize {
+    let files = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let journals =
+        files.map(|file| file.path()).filter(|path| path.extension().is_some_and(|it| it == "journal"));
+    let breaks = |path: PathBuf| -> usize {
+        let Ok(file) = File::open(path) else { return 0 };
+        let (mut reader, mut count) = (BufReader::new(file), 0);
+        while let Ok(bytes) = reader.fill_buf() {
+            let length = bytes.len();
+            if length == 0 {
+                break;
+            }
+            count += bytes.iter().filter(|byte| **byte == b'\n').count();
+            reader.consume(length);
+        }
+        count
+    };
+    journals.map(breaks).sum()
 }
 
 /// Simulated scene along a journal.

@@ -90,7 +90,12 @@ fn an_export_that_fails_leaves_what_was_there() {
     assert!(!place.path("run.mcap.partial").exists());
     place.run("run good.motet --scene kitchen --speed max --record run").check(0, &[]);
     place.run("export mcap run -o run.mcap").check(0, &["err:entries to run.mcap"]);
-    assert_ne!(std::fs::read(place.path("run.mcap")).unwrap(), b"kept");
+    let whole = std::fs::read(place.path("run.mcap")).unwrap();
+    assert_ne!(whole, b"kept");
+    place.run("export mcap run -o slow.mcap --rate 0.1").check(0, &[]);
+    assert!(std::fs::read(place.path("slow.mcap")).unwrap().len() < whole.len());
+    place.run("export mcap run -o none.mcap --max-size 0").check(1, &["err:more entries are left out"]);
+    place.run("export mcap run -o none.mcap --rate 0").check(2, &["err:a rate is from 0.001"]);
 }
 
 #[test]

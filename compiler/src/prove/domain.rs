@@ -224,7 +224,7 @@ impl<'a> Domain<'a> for Prover<'a> {
     fn enter_fixpoint(&mut self, id: StepId) -> bool {
         if self.control.fixpoints >= MAX_FIXPOINTS {
             let span = self.program.step(id).map_or(self.program.span, |step| step.span);
-            self.diagnostics.push(TooDeep { span, limit: MAX_FIXPOINTS }.into());
+            self.diagnostics.push(TooDeep { span, limit: Some(MAX_FIXPOINTS) }.into());
             return false;
         }
         self.control.fixpoints += 1;

@@ -87,15 +87,21 @@ motet_syntax::mistakes! {
     message(_m) { "this condition is always false: the monitor can never fire".to_owned() }
     help(_m) { Some("remove it, or watch a condition that can change".to_owned()) }
 
-    /// Loops, monitors and parallel branches that are nested too deep.
-    TooDeep("M0804", Error) { limit: usize }
-    message(m) { format!("loops, monitors and parallel branches are nested more than {} deep", m.limit) }
-    help(_m) { Some("reduce the nesting".to_owned()) }
-
-    /// Nested loops and reactions that multiply the steps to prove.
-    TooCostly("M0804", Error) { }
-    message(_m) { "the nested loops, monitors and parallel branches are too many to prove".to_owned() }
-    help(_m) { Some("reduce the nesting, or the reactions that go on with `resume`".to_owned()) }
+    /// Loops, monitors and parallel branches that are nested deeper than a limit; without one, so many nested
+    /// ones that the proof was given up.
+    TooDeep("M0804", Error) { limit: Option<usize> }
+    message(m) {
+        match m.limit {
+            Some(limit) => format!("loops, monitors and parallel branches are nested more than {limit} deep"),
+            None => "the nested loops, monitors and parallel branches are too many to prove".to_owned(),
+        }
+    }
+    help(m) {
+        Some(match m.limit {
+            Some(_) => "reduce the nesting".to_owned(),
+            None => "reduce the nesting, or the reactions that go on with `resume`".to_owned(),
+        })
+    }
 
     /// No path reaches a step.
     Unreached("M0902", Warning) { }

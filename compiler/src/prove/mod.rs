@@ -29,7 +29,7 @@ pub(crate) use self::assume::mentions;
 
 use self::collector::Collector;
 use self::effects::{FactChange, PerceptionLifetime};
-use self::errors::TooCostly;
+use self::errors::TooDeep;
 use self::evaluation::CallFrame;
 use self::suspended::{ProofInput, ProofTarget};
 use self::symbols::Symbols;
@@ -283,7 +283,7 @@ pub(crate) fn prove(
     }
     if prover.is_exhausted() {
         // What was not visited may be reachable.
-        prover.diagnostics.push(TooCostly { span: program.span }.into());
+        prover.diagnostics.push(TooDeep { span: program.span, limit: None }.into());
     } else {
         prover.report_unreached();
     }

@@ -44,15 +44,23 @@ motet_syntax::mistakes! {
     message(m) { format!("the policy `{}` calls itself", m.name) }
     help(_m) { Some("use `repeat` or `each` instead; recursion would not be bounded".to_owned()) }
 
-    /// Policy that is too large after inlining.
-    TooManySteps("M0212", Error) { limit: usize }
-    message(m) { format!("the policy has more than {} steps, with its sub-policies inlined", m.limit) }
-    help(_m) { Some("use `repeat` or `each` instead of copies of steps".to_owned()) }
-
-    /// Parallel block with too many branches, each of which is proved beside all others.
-    TooManyBranches("M0212", Error) { found: usize, limit: usize }
-    message(m) { format!("the `parallel` has {} branches, but at most {} may run at once", m.found, m.limit) }
-    help(_m) { Some("let some of them run one after the other".to_owned()) }
+    /// Policy that is too large after inlining, or a parallel block with too many branches: each is proved
+    /// beside all others.
+    TooManySteps("M0212", Error) { limit: usize, branches: Option<usize> }
+    message(m) {
+        match m.branches {
+            Some(found) => {
+                format!("the `parallel` has {found} branches, but at most {} may run at once", m.limit)
+            }
+            None => format!("the policy has more than {} steps, with its sub-policies inlined", m.limit),
+        }
+    }
+    help(m) {
+        Some(match m.branches {
+            Some(_) => "let some of them run one after the other".to_owned(),
+            None => "use `repeat` or `each` instead of copies of steps".to_owned(),
+        })
+    }
 
     /// Binding of the result of a step without one.
     NoResult("M0305", Error) { callee: SmolStr, name: SmolStr }

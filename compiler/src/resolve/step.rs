@@ -9,7 +9,7 @@ use smallvec::{SmallVec, smallvec};
 use smol_str::{SmolStr, format_smolstr};
 
 use super::ResolvedStep;
-use super::errors::{NoReason, Shadows, TooManyBranches, TooManySteps};
+use super::errors::{NoReason, Shadows, TooManySteps};
 use super::path::{Fork, without_value};
 use super::result::{PolicyResult, stands_for_itself};
 use crate::declare::elaborator::{Elaborator, Expected, ValueRole};
@@ -195,7 +195,7 @@ impl<'a> StepResolver<'a> {
     pub(super) fn reserve(&mut self, span: Span, position: StepPosition) -> Option<StepId> {
         if self.program.steps.len() >= MAX_NODES {
             if !self.full {
-                self.elaborator.report(TooManySteps { span, limit: MAX_NODES });
+                self.elaborator.report(TooManySteps { span, limit: MAX_NODES, branches: None });
             }
             self.full = true;
             return None;
@@ -364,7 +364,7 @@ impl<'a> StepResolver<'a> {
                 let mut fork = self.fork(id);
                 let (found, limit) = (branches.len(), MAX_BRANCHES);
                 if found > limit {
-                    self.elaborator.report(TooManyBranches { span: step.span, found, limit });
+                    self.elaborator.report(TooManySteps { span: step.span, limit, branches: Some(found) });
                 }
                 let numbered = branches.iter().enumerate().take(limit);
                 let branches = numbered.map(|(index, block)| {

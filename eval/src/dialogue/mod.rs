@@ -85,7 +85,7 @@ pub fn run(bench: &Bench, case: Case, seed: u64) -> Result<Trial, String> {
         geometry: None,
         options: CheckOptions::default(),
     };
-    let mut talk = Conversation::new(&setting);
+    let mut talk = bench.sighted(Conversation::new(&setting), &robot_in);
     let mut person = Scripted { answers: case.answers(), asked: Vec::new(), questions: Vec::new() };
     let mut planner = Timed::new(bench.planner.make()?);
     let mut observer = TrialObserver::new(None)?;

@@ -25,6 +25,19 @@ pub enum ExportError {
     /// A message cannot be written.
     #[error("a message cannot be written: {0}")]
     Json(#[from] serde_json::Error),
+    /// The file has as many bytes as it may have.
+    #[error("the file has {0} bytes")]
+    Full(u64),
+}
+
+/// Limits of a file: a long run has very many states and pictures of its scene.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct McapLimits {
+    /// Shortest time of the run between two states, and between two pictures of the scene. Events and effects
+    /// are all written.
+    pub every: Time,
+    /// Number of bytes from which on nothing more is written.
+    pub most_bytes: u64,
 }
 
 /// Writes an MCAP file. The engine is stepped along, for its states.
@@ -38,6 +51,18 @@ pub struct McapExporter<W: Write + Seek> {
     sequence: u32,
     state: Option<Snapshot>,
     picture: Option<McapScene>,
+    limits: McapLimits,
+    bytes: u64,
+    /// State and picture that came too soon after the last ones, with the times of both.
+    waiting: Waiting,
+}
+
+/// State and picture that are written with the next ones, or at the end.
+#[derive(Default)]
+struct Waiting {
+    last: Option<u64>,
+    state: Option<(u64, u64, Snapshot)>,
+    picture: Option<(u64, McapScene)>,
 }
 
 struct Channels {
@@ -55,7 +80,7 @@ impl<W: Write + Seek> McapExporter<W> {
     /// # Errors
     ///
     /// It cannot be written.
-    pub fn new(out: W) -> Result<Self, ExportError> {
+    pub fn new(out: W, limits: McapLimits) -> Result<Self, ExportError> {
         let library = format!("motet {}", env!("CARGO_PKG_VERSION"));
         let mut writer = WriteOptions::new().compression(None).library(library).create(out)?;
         let channels = Channels {
@@ -76,6 +101,9 @@ impl<W: Write + Seek> McapExporter<W> {
             sequence: 0,
             state: None,
             picture: None,
+            limits,
+            bytes: 0,
+            waiting: Waiting::default(),
         })
     }
 
@@ -83,7 +111,8 @@ impl<W: Write + Seek> McapExporter<W> {
     ///
     /// # Errors
     ///
-    /// It cannot be written, or the engine does not take it.
+    /// It cannot be written, or the engine does not take it. After [`ExportError::Full`] the file can still be
+    /// finished.
     pub fn entry(
         &mut self,
         seq: u64,
@@ -96,6 +125,9 @@ impl<W: Write + Seek> McapExporter<W> {
             self.replay = Some(EngineReplay::new(head)?);
         }
         let now = self.began_unix_ns.saturating_add(at.since(self.from).nanos());
+        if self.bytes > self.limits.most_bytes {
+            return Err(ExportError::Full(self.bytes));
+        }
         match entry {
             JournalEntry::Head(head) => self.graph(now, seq, head.graph.clone())?,
             JournalEntry::Swap(swap) => {
@@ -115,10 +147,28 @@ impl<W: Write + Seek> McapExporter<W> {
         if let Some(replay) = &mut self.replay {
             // Whether it differs is what `motet replay` tells.
             let _ = replay.take(entry)?;
-            let state = replay.engine().snapshot();
-            self.state(now, seq, state)?;
+            self.waiting.state = Some((now, seq, replay.engine().snapshot()));
         }
-        self.picture(now, picture)
+        if let Some(picture) = picture {
+            self.waiting.picture = Some((now, picture));
+        }
+        let every = self.limits.every.nanos();
+        if self.waiting.last.is_none_or(|last| now >= last.saturating_add(every)) {
+            self.waiting.last = Some(now);
+            self.write_waiting()?;
+        }
+        Ok(())
+    }
+
+    /// Writes the state and the picture that wait.
+    fn write_waiting(&mut self) -> Result<(), ExportError> {
+        if let Some((at, seq, state)) = self.waiting.state.take() {
+            self.state(at, seq, state)?;
+        }
+        if let Some((at, picture)) = self.waiting.picture.take() {
+            self.picture(at, picture)?;
+        }
+        Ok(())
     }
 
     /// Writes what stands at the end of a file.
@@ -127,6 +177,7 @@ impl<W: Write + Seek> McapExporter<W> {
     ///
     /// It cannot be written.
     pub fn finish(mut self) -> Result<(), ExportError> {
+        self.write_waiting()?;
         self.writer.finish()?;
         Ok(())
     }
@@ -149,8 +200,7 @@ impl<W: Write + Seek> McapExporter<W> {
         Ok(())
     }
 
-    fn picture(&mut self, now: u64, picture: Option<McapScene>) -> Result<(), ExportError> {
-        let Some(picture) = picture else { return Ok(()) };
+    fn picture(&mut self, now: u64, picture: McapScene) -> Result<(), ExportError> {
         let last = self.picture.as_ref();
         let (moved, changed) = (
             last.is_none_or(|last| last.base != picture.base),
@@ -169,7 +219,9 @@ impl<W: Write + Seek> McapExporter<W> {
     fn write(&mut self, channel_id: u16, now: u64, message: &impl Serialize) -> Result<(), ExportError> {
         let header = MessageHeader { channel_id, sequence: self.sequence, log_time: now, publish_time: now };
         self.sequence = self.sequence.wrapping_add(1);
-        self.writer.write_to_known_channel(&header, &serde_json::to_vec(message)?)?;
+        let message = serde_json::to_vec(message)?;
+        self.bytes += message.len() as u64;
+        self.writer.write_to_known_channel(&header, &message)?;
         Ok(())
     }
 }

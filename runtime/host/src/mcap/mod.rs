@@ -5,5 +5,5 @@
 mod export;
 mod foxglove;
 
-pub use export::{ExportError, McapExporter};
+pub use export::{ExportError, McapExporter, McapLimits};
 pub use foxglove::{McapBody, McapScene, McapSolid};
