@@ -111,7 +111,7 @@ impl<W: Write + Seek> McapExporter<W> {
     ///
     /// # Errors
     ///
-    /// It cannot be written, or the engine does not take it. After [`ExportError::Full`] the file can still be
+    /// It cannot be written, or the engine does not take it. After [`ExportError::Full`] the file can be
     /// finished.
     pub fn entry(
         &mut self,
