@@ -12,7 +12,7 @@ use smol_str::SmolStr;
 
 use crate::declare::{Library, LibraryBuilder};
 use crate::environment::Environment;
-use crate::feasibility::{Geometry, MotionVerdicts};
+use crate::feasibility::{Geometry, MotionVerdict, MotionVerdicts};
 use crate::ir::{Program, StepKind};
 use crate::limits::errors::NoPolicy;
 use crate::lower::StepInspection;
@@ -31,7 +31,7 @@ pub struct Compiled {
     pub skipped_motions: usize,
 }
 
-/// Result of checking a document: diagnostics, and what each policy compiles to.
+/// Result of checking a document: diagnostics, and the outcome of each policy.
 #[derive(Clone, Debug)]
 pub struct DocumentCheck {
     /// Diagnostics of the document and of all its policies, in the order of the document.
@@ -48,9 +48,11 @@ pub struct DocumentCheck {
 pub struct PolicyOutcome {
     /// Name of the policy.
     pub name: SmolStr,
-    /// The execution graph; `None` if the policy, or the document around it, has errors.
-    pub graph: Option<Graph>,
-    /// Number of motion checks skipped because of earlier errors; 0 when `graph` is `Some`.
+    /// False if the policy, or the document around it, has errors: then it does not compile.
+    pub passes: bool,
+    /// Number of motions that are left to the run; 0 unless it passes.
+    pub deferred_motions: usize,
+    /// Number of motion checks skipped because of earlier errors; 0 if it passes.
     pub skipped_motions: usize,
 }
 
@@ -74,7 +76,8 @@ impl Session {
         findings.into_iter().map(|found| found.diagnostic).collect()
     }
 
-    /// Checks a document and compiles each of its policies without parameters. Each policy is analysed once.
+    /// Checks a document, and says of each of its policies without parameters whether it compiles. Each policy
+    /// is analysed once.
     ///
     /// ```
     /// use motet_compiler::Session;
@@ -83,8 +86,8 @@ impl Session {
     /// let session = Session::builder().build(&mut Sources::default());
     /// let source = Source::new("two.motet", "policy one { say(\"1\") } policy two { sya(\"2\") }");
     /// let check = session.check_document(&motet_syntax::read(&source, FileId(99)));
-    /// assert!(check.policies[0].graph.is_some());
-    /// assert!(check.policies[1].graph.is_none());
+    /// assert!(check.policies[0].passes);
+    /// assert!(!check.policies[1].passes);
     /// ```
     #[must_use]
     pub fn check_document(&self, parsed: &Parsed) -> DocumentCheck {
@@ -144,8 +147,7 @@ impl Session {
                 findings.append(&mut analysis.findings);
                 if policy.params.is_empty() {
                     left.extend(analysis.deferred_notes(policy, parsed, library, environment));
-                    let (graph, skipped_motions) = analysis.lower(is_refused, library, environment);
-                    policies.push(PolicyOutcome { name: policy.name.text.clone(), graph, skipped_motions });
+                    policies.push(analysis.outcome(policy, is_refused, library));
                 }
             }
         });
@@ -351,24 +353,44 @@ impl Analysis {
         notes
     }
 
+    /// Outcome of the policy, of which `is_refused` says that the document around it has an error.
+    fn outcome(&self, policy: &Policy, is_refused: bool, library: &Library) -> PolicyOutcome {
+        let Self { program, motions, has_errors, are_motions_checked, .. } = self;
+        let passes = !is_refused && !has_errors;
+        let is_open = |index: usize| {
+            !matches!(motions.get(index).and_then(Option::as_ref), Some(MotionVerdict::Feasible(..)))
+        };
+        let calls = calls_with_motions(program, library);
+        PolicyOutcome {
+            name: policy.name.text.clone(),
+            passes,
+            deferred_motions: if passes { calls.filter(|index| is_open(*index)).count() } else { 0 },
+            skipped_motions: if passes || *are_motions_checked {
+                0
+            } else {
+                calls_with_motions(program, library).count()
+            },
+        }
+    }
+
     /// Lowers the program if neither it nor the document has an error; else counts the motions that were
     /// not checked.
     fn lower(self, is_refused: bool, library: &Library, environment: &Environment) -> (Option<Graph>, usize) {
         let Self { program, proof, motions, has_errors, are_motions_checked, .. } = self;
         if is_refused || has_errors {
-            return (None, if are_motions_checked { 0 } else { count_motions(&program, library) });
+            let motions = calls_with_motions(&program, library);
+            return (None, if are_motions_checked { 0 } else { motions.count() });
         }
         (Some(crate::lower::lower(&program, &proof, motions, library, environment)), 0)
     }
 }
 
-/// Number of calls in a program that have a motion.
-fn count_motions(program: &Program, library: &Library) -> usize {
-    let calls = program.steps.iter().filter_map(|step| {
+/// Steps of a program that call a primitive with a motion.
+fn calls_with_motions<'a>(program: &'a Program, library: &'a Library) -> impl Iterator<Item = usize> + 'a {
+    program.steps.iter().enumerate().filter_map(|(index, step)| {
         let StepKind::Call(call) = &step.kind else { return None };
-        library.primitive(call.primitive)
-    });
-    calls.filter(|def| def.motion.is_some()).count()
+        library.primitive(call.primitive)?.motion.as_ref().map(|_| index)
+    })
 }
 
 fn is_error(diagnostic: &Diagnostic) -> bool {

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use indexmap::IndexMap;
-use motet_compiler::{DocumentCheck, Geometry, Session};
+use motet_compiler::{Geometry, Session};
 use motet_graph::{Graph, Node, NodeKind, Verdict};
 use motet_robots::builtin;
 use motet_robots::card::Robot;
@@ -213,17 +213,15 @@ fn setting(robot: &str, scene: &str) -> Result<Setting, String> {
 impl Setting {
     fn judge(&self, mutant: &Mutant, seed: u64) -> MutantEnd {
         let parsed = motet_syntax::read(&Source::new("mutant.json", mutant.text.as_str()), FileId(99));
-        let DocumentCheck { diagnostics, policies, .. } = self.session.check_document(&parsed);
-        let has = |severity| diagnostics.iter().any(|said| said.severity == severity);
+        let compiled = self.session.compile(&parsed, None);
+        let has = |severity| compiled.diagnostics.iter().any(|said| said.severity == severity);
         if has(Severity::Error) {
             return MutantEnd::Refused;
         }
         if has(Severity::Warning) {
             return MutantEnd::Warned;
         }
-        let Some(graph) = policies.into_iter().find_map(|policy| policy.graph) else {
-            return MutantEnd::Refused;
-        };
+        let Some(graph) = compiled.graph else { return MutantEnd::Refused };
         self.run(graph, seed)
     }
 

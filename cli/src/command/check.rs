@@ -237,7 +237,7 @@ impl Checker<'_> {
         let checked = opened.session.check_document(&parsed);
         for policy in &checked.policies {
             tally.unseen += policy.skipped_motions;
-            tally.motions += policy.graph.as_ref().map_or(0, deferred_motions);
+            tally.motions += policy.deferred_motions;
         }
         tally.left += checked.deferred_notes.len();
         let all = listed(checked, opened, self.denies_deferred);

@@ -35,9 +35,8 @@ action wave()
 pub(crate) fn compiled(policy: &str) -> Graph {
     let (session, _) = setup::session(None, None, &mut Sources::default());
     let source = Source::new("p.motet", format!("{DOMAIN}\n{policy}"));
-    let checked = session.check_document(&motet_syntax::read(&source, FileId(99)));
-    let graph = checked.policies.iter().find_map(|policy| policy.graph.clone());
-    graph.unwrap_or_else(|| panic!("{policy}: {:#?}", checked.diagnostics))
+    let compiled = session.compile(&motet_syntax::read(&source, FileId(99)), None);
+    compiled.graph.unwrap_or_else(|| panic!("{policy}: {:#?}", compiled.diagnostics))
 }
 
 /// Events that a driver answers an effect with.
@@ -319,9 +318,8 @@ fn started_with(policy: &str, find: impl Fn(&str) -> Option<Value>) -> Vec<Strin
     let (robot, scene) = (setup::robot("hsr"), setup::scene("kitchen"));
     let (session, _) = setup::session(Some(&robot), Some(&scene), &mut Sources::default());
     let parsed = motet_syntax::read(&Source::new("p.motet", policy), FileId(99));
-    let checked = session.check_document(&parsed);
-    let graph = checked.policies.iter().find_map(|policy| policy.graph.clone());
-    let graph = graph.unwrap_or_else(|| panic!("{policy}: {:#?}", checked.diagnostics));
+    let compiled = session.compile(&parsed, None);
+    let graph = compiled.graph.unwrap_or_else(|| panic!("{policy}: {:#?}", compiled.diagnostics));
     let mut answers = |effect: &Effect| match effect {
         Effect::Start { goal, command, .. } => {
             vec![DriverEvent::Ended { goal: *goal, outcome: Outcome::Success(find(&command.primitive)) }]

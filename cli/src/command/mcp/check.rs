@@ -26,8 +26,7 @@ pub(super) fn check(situation: &Situation, text: &str) -> Result<Value, Refusal>
     let checked = session.check_document(&parsed);
     let is_runnable = parsed.file.runnable().next().is_some();
     let has_error = checked.diagnostics.iter().any(is_error);
-    let left: usize =
-        checked.policies.iter().filter_map(|one| one.graph.as_ref()).map(deferred_motions).sum();
+    let left: usize = checked.policies.iter().map(|one| one.deferred_motions).sum();
     let fixed = fix(session, &source, DOCUMENT, FixLimits::safe(MAX_FIXES));
     let sources = situation.project.sources(source);
     let mut answer = findings(&checked.diagnostics, &sources);
