@@ -76,8 +76,8 @@ impl Session {
         findings.into_iter().map(|found| found.diagnostic).collect()
     }
 
-    /// Checks a document, and says of each of its policies without parameters whether it compiles. Each policy
-    /// is analysed once.
+    /// Checks a document, and tells of each of its policies without parameters if it compiles. Each policy is
+    /// analysed once.
     ///
     /// ```
     /// use motet_compiler::Session;
