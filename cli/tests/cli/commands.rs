@@ -177,6 +177,12 @@ fn writes_a_first_card_and_checks_it() {
     place.run("robots add crane/crane.urdf").check(2, &["err:exists already"]);
     place.run("robots add crane/crane.urdf --to other").check(0, &[]);
     place.run("robots check other").check(0, &["out:2 links"]);
+    // A card of somebody else shows no file outside its folder and its packages.
+    let card = place.read("crane/robot.toml").replace("urdf = \"crane.urdf\"", "urdf = \"/etc/hostname\"");
+    let place = place.file("spy/robot.toml", card);
+    place
+        .run("robots check spy")
+        .check(2, &["err:is not in the robot's folder", "err:`packages` of the card"]);
     place.run("robots add broken/robot.urdf").check(1, &["out:M0461"]);
     place.run("robots add nothing.urdf").check(2, &["err:cannot read"]);
     let place = place.file("latin/robot.urdf", [URDF.as_bytes(), b"<!-- f\xfcr -->"].concat());

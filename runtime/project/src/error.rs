@@ -26,6 +26,9 @@ pub enum ProjectError {
     /// A `motet.toml` is not TOML of its form, or a number in it is out of range.
     #[error("`{}`: {problem}", path.display())]
     Config { path: PathBuf, problem: String },
+    /// A card names a file that is neither in its folder nor in one of its packages.
+    #[error("`{}` is not in the robot's folder", path.display())]
+    Outside { path: PathBuf },
     /// A robot's folder has no `robot.toml`.
     #[error("the folder `{}` has no robot.toml", path.display())]
     NoCard { path: PathBuf },
@@ -61,6 +64,7 @@ impl ProjectError {
             Self::NoCard { .. } => {
                 Some("a robot's folder holds robot.toml, and primitives.motet if its signatures differ")
             }
+            Self::Outside { .. } => Some("copy it there, or add its folder to `packages` of the card"),
             Self::TooLarge { .. } => Some("split it into several files"),
             Self::Config { .. } => Some(
                 "its keys are robot, scene, state, domains, clearance, max_duration, geometry and effort",

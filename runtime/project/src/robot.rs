@@ -208,13 +208,29 @@ impl RobotFiles {
                 let text = builtin::robot_texts(name).map_or("", |texts| texts.urdf);
                 Ok(Some((format!("{name}/{}", model.urdf), text.as_bytes().to_vec())))
             }
-            Home::Folder(folder) => read_optional(&folder.join(&model.urdf)),
+            Home::Folder(_) => self.read_inside(model, &model.urdf),
+        }
+    }
+
+    /// Reads a file that the card names, which must be in its folder or in one of its packages: a card of
+    /// somebody else shows no other file. `None` if it does not exist.
+    fn read_inside(&self, model: &ModelSpec, file: &str) -> Result<Option<(String, Vec<u8>)>, ProjectError> {
+        let Home::Folder(folder) = &self.home else { return Ok(None) };
+        let path = folder.join(file);
+        let packages = model.packages.iter().map(|package| folder.join(package));
+        let mut allowed =
+            [folder.clone()].into_iter().chain(packages).filter_map(|it| fs::canonicalize(it).ok());
+        match fs::canonicalize(&path) {
+            Ok(found) if !allowed.any(|folder| found.starts_with(folder)) => {
+                Err(ProjectError::Outside { path })
+            }
+            Ok(_) | Err(_) => read_optional(&path),
         }
     }
 
     fn srdf(&self, model: &ModelSpec) -> Result<Srdf, ProjectError> {
-        let (Home::Folder(folder), Some(file)) = (&self.home, &model.srdf) else { return Ok(Srdf::None) };
-        Ok(read_optional(&folder.join(file))?.map_or(Srdf::Missing, |(name, bytes)| Srdf::Text(name, bytes)))
+        let (Home::Folder(_), Some(file)) = (&self.home, &model.srdf) else { return Ok(Srdf::None) };
+        Ok(self.read_inside(model, file)?.map_or(Srdf::Missing, |(name, bytes)| Srdf::Text(name, bytes)))
     }
 
     /// Passes the index of each package folder that does not exist.

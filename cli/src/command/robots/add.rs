@@ -63,7 +63,8 @@ pub(super) fn add(inputs: &AddInputs<'_>, report: &mut Report) -> Result<Exit, C
         None => None,
     };
     let file = relative_to(path, folder)?;
-    let packages = package_folders(inputs, &robot)?;
+    let mut packages = package_folders(inputs, &robot)?;
+    packages.extend(foreign_folders(&[Some(path), srdf.as_deref()], folder));
     let mut beside = DraftInputs {
         srdf: srdf_read.as_ref().map(|(srdf, name)| (srdf, name.as_str())),
         packages: &packages,
@@ -141,6 +142,20 @@ fn package_folders(inputs: &AddInputs<'_>, robot: &Urdf) -> Result<Vec<String>, 
     folders.sort();
     folders.dedup();
     Ok(folders.iter().map(|folder| folder.display().to_string()).collect())
+}
+
+/// Folders of files outside the folder of the card, which reads no others.
+fn foreign_folders(files: &[Option<&Path>], folder: &Path) -> Vec<String> {
+    let own = folder.canonicalize().ok();
+    let mut folders: Vec<PathBuf> = Vec::new();
+    for file in files.iter().flatten() {
+        let parent = file.canonicalize().ok().and_then(|file| Some(file.parent()?.to_owned()));
+        let is_foreign = |parent: &PathBuf| own.as_ref().is_none_or(|own| !parent.starts_with(own));
+        folders.extend(parent.filter(is_foreign));
+    }
+    folders.sort();
+    folders.dedup();
+    folders.iter().map(|folder| folder.display().to_string()).collect()
 }
 
 /// Lines of an SRDF that allow pairs of links to touch.
