@@ -300,10 +300,16 @@ impl Agent {
         let words = open(bytes, &self.trust, &self.robot)?;
         let What::Swap { policy } = words.what else { return Err("the words have no policy".to_owned()) };
         let current = self.current().clone().ok_or("no run goes on")?;
-        // A policy that took over once does not do so again.
-        let done = current.folder.0.join(format!("swap-{}.json", words.id));
-        if done.exists() {
-            return Err("the policy has been offered before".to_owned());
+        // A policy that was offered once is not offered again, also not to a later order.
+        let swaps = self.root.join("swaps");
+        let wrong = |error: std::io::Error| format!("{}: {error}", swaps.display());
+        std::fs::create_dir_all(&swaps).map_err(wrong)?;
+        match std::fs::File::create_new(swaps.join(&words.id)) {
+            Ok(_) => {}
+            Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => {
+                return Err("the policy has been offered before".to_owned());
+            }
+            Err(error) => return Err(wrong(error)),
         }
         let answer = tell_page(&current.folder, "/swap", policy, "text/plain").await;
         let told = match answer {
