@@ -124,6 +124,21 @@ impl ActionClient {
         Ok(Self { name, type_name, send, cancel, result, first, goals: Vec::new(), lost: Vec::new() })
     }
 
+    /// Takes over the goals of a client whose participant was given up. Their results are asked for anew; what
+    /// was sent and not answered shows in the state that the server tells.
+    pub(crate) fn adopt(&mut self, before: &mut Self) {
+        self.lost = std::mem::take(&mut before.lost);
+        self.goals = std::mem::take(&mut before.goals);
+        for goal in &mut self.goals {
+            (goal.ticket, goal.asked) = (None, None);
+        }
+    }
+
+    /// Names of the topics on which the server writes.
+    pub(crate) fn topics(&self) -> [String; 1] {
+        [dds_topic("rt", &self.name, "/_action/status")]
+    }
+
     /// Endpoints of the server that DDS has not discovered, of all five. A goal that is sent before all are
     /// there could run without a way to hear of it.
     #[must_use]

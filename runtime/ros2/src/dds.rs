@@ -4,17 +4,21 @@ use bytes::Bytes;
 use crossbeam_channel::Sender;
 use futures::StreamExt as _;
 use futures::executor::ThreadPool;
+use futures::future::{AbortHandle, abortable};
 use rustdds::RTPSEntity as _;
 use rustdds::no_key::{Decode, DefaultDecoder, DeserializerAdapter, SerializerAdapter};
 use rustdds::policy::{Durability, History, Reliability};
 use rustdds::rpc::SampleIdentity;
 use rustdds::with_key::WriteOptionsBuilder;
 use rustdds::{
-    DomainParticipant, DomainParticipantBuilder, QosPolicies, QosPolicyBuilder, RepresentationIdentifier,
-    Topic, TopicKind,
+    DomainParticipant, DomainParticipantBuilder, DomainParticipantStatusEvent,
+    DomainParticipantStatusListener, LostReason, QosPolicies, QosPolicyBuilder, RepresentationIdentifier,
+    StatusEvented as _, Topic, TopicKind,
 };
+use std::collections::HashSet;
 use std::convert::Infallible;
 use std::net::IpAddr;
+use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 /// Number of a subscription.
@@ -71,6 +75,16 @@ pub(crate) struct Dds {
     subscriber: rustdds::Subscriber,
     pool: ThreadPool,
     sender: Sender<Received>,
+    status: DomainParticipantStatusListener,
+    /// Handles that end the streams of the subscriptions, and with them their readers.
+    streams: Mutex<Vec<AbortHandle>>,
+}
+
+impl Drop for Dds {
+    fn drop(&mut self) {
+        let streams = self.streams.get_mut().unwrap_or_else(PoisonError::into_inner);
+        streams.drain(..).for_each(|stream| stream.abort());
+    }
 }
 
 /// Writer of a topic.
@@ -105,7 +119,8 @@ impl Dds {
             participant.create_subscriber(&policies).map_err(|error| wrong("a subscriber", &error))?;
         let pool = ThreadPool::builder().pool_size(1).name_prefix("dds-").create();
         let pool = pool.map_err(|error| format!("a thread for DDS: {error}"))?;
-        Ok(Self { participant, publisher, subscriber, pool, sender })
+        let (status, streams) = (participant.status_listener(), Mutex::default());
+        Ok(Self { participant, publisher, subscriber, pool, sender, status, streams })
     }
 
     /// Writer of a topic.
@@ -137,7 +152,7 @@ impl Dds {
         let reader = self.subscriber.create_datareader_no_key::<Bytes, Raw>(&own, Some(policies));
         let reader = reader.map_err(|error| format!("a reader of `{topic}`: {error}"))?;
         let sender = self.sender.clone();
-        self.pool.spawn_ok(async move {
+        let (stream, handle) = abortable(async move {
             let mut samples = reader.async_sample_stream();
             while let Some(sample) = samples.next().await {
                 // A sample that cannot be read is left out; a reliable writer sends it again.
@@ -151,7 +166,33 @@ impl Dds {
                 }
             }
         });
+        self.streams.lock().unwrap_or_else(PoisonError::into_inner).push(handle);
+        self.pool.spawn_ok(async move {
+            // The end of a stream says nothing.
+            let _ = stream.await;
+        });
         Ok(())
+    }
+
+    /// Participants with a writer of one of these topics.
+    #[must_use]
+    pub(crate) fn peers(&self, topics: &[String]) -> HashSet<String> {
+        let writers = self.participant.discovered_writers().into_iter();
+        let own = writers.filter(|writer| topics.contains(&writer.publication_topic_data.topic_name));
+        own.map(|writer| format!("{:?}", writer.writer_proxy.remote_writer_guid.prefix)).collect()
+    }
+
+    /// True if one of these participants has not been heard of for the time of its lease. If it comes back,
+    /// this one does not match its endpoints again: only a new participant does.
+    #[must_use]
+    pub(crate) fn has_lost(&self, peers: &HashSet<String>) -> bool {
+        let mut is_lost = false;
+        while let Some(event) = self.status.try_recv_status() {
+            if let DomainParticipantStatusEvent::ParticipantLost { id, reason } = event {
+                is_lost |= peers.contains(&format!("{id:?}")) && matches!(reason, LostReason::Timeout { .. });
+            }
+        }
+        is_lost
     }
 
     /// Readers of other participants that DDS has discovered, in order.

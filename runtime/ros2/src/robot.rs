@@ -10,10 +10,10 @@ use crate::perceive::{CameraFeed, Feed, detections};
 use crate::service::{Client, Interface, Ticket};
 use crate::state::Body;
 use bytes::Bytes;
-use crossbeam_channel::{Receiver, bounded};
+use crossbeam_channel::{Receiver, Sender, bounded};
 use motet_host::remote::protocol::DetectedThing;
 use serde_json::Value;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::time::{Duration, Instant};
 
 /// Messages that wait to be read. Beyond that DDS keeps the last ones of each topic.
@@ -58,6 +58,9 @@ pub(crate) struct Robot {
     pub(crate) services: Vec<Client>,
     /// Messages of ROS, for the main loop.
     pub(crate) received: Receiver<Received>,
+    messages: Sender<Received>,
+    /// Participants of the robot's nodes.
+    peers: HashSet<String>,
     dds: Dds,
     channels: Vec<Channel>,
     service_names: Vec<String>,
@@ -81,7 +84,15 @@ impl Robot {
     ///
     /// A type without a layout, an expression that is wrong, or why DDS does not start.
     pub(crate) fn open(binding: Binding, layouts: Layouts) -> Result<Self, String> {
-        let (sender, received) = bounded(WAITING);
+        Self::join(binding, layouts, bounded(WAITING))
+    }
+
+    fn join(
+        binding: Binding,
+        layouts: Layouts,
+        (sender, received): (Sender<Received>, Receiver<Received>),
+    ) -> Result<Self, String> {
+        let messages = sender.clone();
         let dds = Dds::join(binding.domain(), &binding.ros.networks, sender)?;
         let cameras = binding.cameras.iter().map(|_| CameraFeed::default()).collect();
         let mut robot = Self {
@@ -91,6 +102,8 @@ impl Robot {
             actions: Vec::new(),
             services: Vec::new(),
             received,
+            messages,
+            peers: HashSet::new(),
             dds,
             channels: Vec::new(),
             service_names: Vec::new(),
@@ -395,6 +408,10 @@ impl Robot {
 
     /// Lets time pass for all actions.
     pub(crate) fn tick(&mut self) -> Vec<Heard> {
+        if self.dds.has_lost(&self.peers) {
+            self.tell("a node of the robot was not heard of for its lease time: DDS is joined anew");
+            self.join_again().unwrap_or_else(|wrong| self.tell(&wrong));
+        }
         if self.looked.is_none_or(|looked| looked.elapsed() > LOOKS) {
             self.look_for_servers();
         }
@@ -407,9 +424,29 @@ impl Robot {
         heard
     }
 
+    /// Joins DDS as a new participant, and keeps what is known of the robot and its goals. Calls of services
+    /// that are not answered yet end by their time.
+    fn join_again(&mut self) -> Result<(), String> {
+        let channel = (self.messages.clone(), self.received.clone());
+        let mut fresh = Self::join(self.binding.clone(), self.layouts.clone(), channel)?;
+        for (own, before) in fresh.actions.iter_mut().zip(&mut self.actions) {
+            own.adopt(before);
+        }
+        std::mem::swap(&mut fresh.body, &mut self.body);
+        std::mem::swap(&mut fresh.cameras, &mut self.cameras);
+        std::mem::swap(&mut fresh.kept, &mut self.kept);
+        std::mem::swap(&mut fresh.told, &mut self.told);
+        *self = fresh;
+        Ok(())
+    }
+
     fn look_for_servers(&mut self) {
         self.looked = Some(Instant::now());
         self.missing = self.actions.iter().map(|action| action.missing(&self.dds)).collect();
+        let topics = self.actions.iter().flat_map(ActionClient::topics);
+        let joints = dds_topic("rt", &self.binding.joints.topic, "");
+        let topics: Vec<String> = topics.chain([joints]).collect();
+        self.peers.extend(self.dds.peers(&topics));
     }
 
     /// Answer to a bound fact or measure; `None` without a message that is fresh, or where the expression has

@@ -56,7 +56,7 @@ class Driver:
         self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         self.lines, self.number, self.reports, self.goals = queue.Queue(), 0, [], 0
         threading.Thread(target=self.read, daemon=True).start()
-        self.alive = True
+        self.alive, self.moved = True, {"joints": {}}
         threading.Thread(target=self.beat, daemon=True).start()
         self.lock = threading.Lock()
         if greet:
@@ -116,6 +116,14 @@ class Driver:
         self.goals += 1
         command = {"primitive": primitive, "args": list(args.items()), "uses": [], "deadline_secs": 60.0, "motions": list(motions)}
         return self.goals, self.call("start", goal=self.goals, command=command)
+
+    def discovers(self, joint, secs=30.0):
+        """True once telemetry tells of a joint: with lost packets DDS may take its time."""
+        end = time.monotonic() + secs
+        while joint not in self.moved["joints"] and time.monotonic() < end:
+            self.call("ping")
+            time.sleep(0.1)
+        return joint in self.moved["joints"]
 
     def move(self, query, *args):
         """Starts a motion without a path."""
