@@ -124,8 +124,8 @@ impl ActionClient {
         Ok(Self { name, type_name, send, cancel, result, first, goals: Vec::new(), lost: Vec::new() })
     }
 
-    /// Takes over the goals of a client whose participant was given up. Their results are asked for anew; what
-    /// was sent and not answered shows in the state that the server tells.
+    /// Takes over the goals of a client whose participant was given up, and asks for their results again.
+    /// What was sent and not answered shows in the state that the server tells.
     pub(crate) fn adopt(&mut self, before: &mut Self) {
         self.lost = std::mem::take(&mut before.lost);
         self.goals = std::mem::take(&mut before.goals);
