@@ -5,6 +5,7 @@ use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 
 use clap::ValueEnum;
+use motet_project::ProjectError;
 
 use crate::error::CliError;
 
@@ -144,4 +145,19 @@ pub(crate) fn count(number: usize, one: &str) -> String {
 /// `1 entry`, `2 entries`.
 pub(crate) fn count_irregular(number: usize, one: &str, several: &str) -> String {
     format!("{number} {}", if number == 1 { one } else { several })
+}
+
+/// Part of a saved project that was opened again. Without it, a note says why, and what the command does
+/// without it.
+pub(crate) fn opened_again<T>(
+    opened: Result<Option<T>, ProjectError>,
+    changed: &str,
+    without: &str,
+) -> Option<T> {
+    match opened {
+        Ok(Some(opened)) => return Some(opened),
+        Ok(None) => note(&format!("{changed}: {without}")),
+        Err(error) => note(&format!("{without}: {}", CliError::from(error))),
+    }
+    None
 }

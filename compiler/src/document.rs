@@ -355,32 +355,30 @@ impl Analysis {
 
     /// Outcome of the policy, of which `is_refused` says that the document around it has an error.
     fn outcome(&self, policy: &Policy, is_refused: bool, library: &Library) -> PolicyOutcome {
-        let Self { program, motions, has_errors, are_motions_checked, .. } = self;
-        let passes = !is_refused && !has_errors;
-        let is_open = |index: usize| {
-            !matches!(motions.get(index).and_then(Option::as_ref), Some(MotionVerdict::Feasible(..)))
-        };
-        let calls = calls_with_motions(program, library);
-        PolicyOutcome {
-            name: policy.name.text.clone(),
-            passes,
-            deferred_motions: if passes { calls.filter(|index| is_open(*index)).count() } else { 0 },
-            skipped_motions: if passes || *are_motions_checked {
-                0
-            } else {
-                calls_with_motions(program, library).count()
-            },
+        let name = policy.name.text.clone();
+        if is_refused || self.has_errors {
+            let skipped_motions = self.skipped_motions(library);
+            return PolicyOutcome { name, passes: false, deferred_motions: 0, skipped_motions };
         }
+        let is_open = |index: &usize| {
+            !matches!(self.motions.get(*index).and_then(Option::as_ref), Some(MotionVerdict::Feasible(..)))
+        };
+        let deferred_motions = calls_with_motions(&self.program, library).filter(is_open).count();
+        PolicyOutcome { name, passes: true, deferred_motions, skipped_motions: 0 }
+    }
+
+    /// Number of motions that were not checked behind an error.
+    fn skipped_motions(&self, library: &Library) -> usize {
+        if self.are_motions_checked { 0 } else { calls_with_motions(&self.program, library).count() }
     }
 
     /// Lowers the program if neither it nor the document has an error; else counts the motions that were
     /// not checked.
     fn lower(self, is_refused: bool, library: &Library, environment: &Environment) -> (Option<Graph>, usize) {
-        let Self { program, proof, motions, has_errors, are_motions_checked, .. } = self;
-        if is_refused || has_errors {
-            let motions = calls_with_motions(&program, library);
-            return (None, if are_motions_checked { 0 } else { motions.count() });
+        if is_refused || self.has_errors {
+            return (None, self.skipped_motions(library));
         }
+        let Self { program, proof, motions, .. } = self;
         (Some(crate::lower::lower(&program, &proof, motions, library, environment)), 0)
     }
 }

@@ -86,17 +86,7 @@ impl Bench {
             return Err(format!("the physics driver has no profile `{world}`, only the built-in ones"));
         }
         let profile = motet_project::read_profile(world).map_err(|error| error.to_string())?;
-        let (planner, workers) = (PlannerKind::Builtin, Workers::default());
-        Ok(Self {
-            world: world.to_owned(),
-            profile,
-            driver,
-            planner,
-            workers,
-            every: 1,
-            only: Vec::new(),
-            has_pictures: false,
-        })
+        Ok(Self { world: world.to_owned(), profile, driver, ..Self::ideal() })
     }
 
     /// True if a trial is asked for, by words that tell it from others.

@@ -304,13 +304,11 @@ impl Agent {
         let swaps = self.root.join("swaps");
         let wrong = |error: std::io::Error| format!("{}: {error}", swaps.display());
         std::fs::create_dir_all(&swaps).map_err(wrong)?;
-        match std::fs::File::create_new(swaps.join(&words.id)) {
-            Ok(_) => {}
-            Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => {
-                return Err("the policy has been offered before".to_owned());
-            }
-            Err(error) => return Err(wrong(error)),
-        }
+        let marked = std::fs::File::create_new(swaps.join(&words.id));
+        marked.map_err(|error| match error.kind() {
+            std::io::ErrorKind::AlreadyExists => "the policy has been offered before".to_owned(),
+            _ => wrong(error),
+        })?;
         let answer = tell_page(&current.folder, "/swap", policy, "text/plain").await;
         let told = match answer {
             Ok(mut swapped) => {
@@ -321,6 +319,7 @@ impl Agent {
             }
             Err(refusal) => refusal,
         };
+        // For who looks at the order later: nothing here reads it.
         current.folder.write(&format!("swap-{}.json", words.id), told.to_string().as_bytes())?;
         Ok((words.id, told))
     }

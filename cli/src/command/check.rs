@@ -9,7 +9,6 @@ use clap::Args;
 use motet::batch;
 use motet::document::{MAX_FIXES, is_reply, listed};
 use motet_compiler::fix::{Applicability, AppliedFix, FixLimits, fix};
-use motet_graph::{Graph, NodeKind, Verdict};
 use motet_project::files::Bytes;
 use motet_project::{DOCUMENT, ProjectSession, named_robot};
 use motet_syntax::{Parsed, Source, render};
@@ -442,13 +441,4 @@ fn diff(name: &str, before: &str, after: &str) -> String {
 
 fn were(motions: usize) -> String {
     if motions == 1 { "1 motion was".to_owned() } else { format!("{motions} motions were") }
-}
-
-/// Number of motions that the compiler deferred to the run.
-pub(crate) fn deferred_motions(graph: &Graph) -> usize {
-    let is_deferred = |kind: &NodeKind| {
-        let NodeKind::Call(call) = kind else { return false };
-        call.motion.as_ref().is_some_and(|motion| motion.verdict == Verdict::Deferred)
-    };
-    graph.nodes.iter().filter(|node| is_deferred(&node.kind)).count()
 }

@@ -4,8 +4,8 @@
 mod btcpp;
 
 use std::fs::File;
-use std::io::{BufRead as _, BufReader, BufWriter};
-use std::path::{Path, PathBuf};
+use std::io::{BufWriter, IsTerminal as _, stderr};
+use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 use motet_host::mcap::{ExportError, McapBody, McapExporter, McapLimits, McapScene, McapSolid};
@@ -87,7 +87,9 @@ fn write(args: &McapArgs, file: &File) -> Result<(u64, u64), CliError> {
         most_bytes: args.max_size.saturating_mul(1_000_000),
     };
     let mut exporter = McapExporter::new(BufWriter::new(file), limits).map_err(wrong)?;
-    let progress = Progress::of_items(lines(&args.folder), "exporting");
+    // A bar that nobody sees is not worth another look at the journal.
+    let lines = if stderr().is_terminal() { motet_host::journal::lines(&args.folder) } else { 0 };
+    let progress = Progress::of_items(lines, "exporting");
     let mut replay = None;
     let (mut result, mut entries, mut left) = (Ok(()), 0, 0);
     let read = motet_host::journal::read(&args.folder, &mut |seq, entry| {
@@ -109,27 +111,6 @@ fn write(args: &McapArgs, file: &File) -> Result<(u64, u64), CliError> {
     }
     result.and_then(|()| exporter.finish()).map_err(wrong)?;
     Ok((entries, left))
-}
-
-/// Number of lines of a journal, for its bar.
-fn lines(folder: &Path) -> usize {
-    let files = std::fs::read_dir(folder).into_iter().flatten().flatten();
-    let journals =
-        files.map(|file| file.path()).filter(|path| path.extension().is_some_and(|it| it == "journal"));
-    let breaks = |path: PathBuf| -> usize {
-        let Ok(file) = File::open(path) else { return 0 };
-        let (mut reader, mut count) = (BufReader::new(file), 0);
-        while let Ok(bytes) = reader.fill_buf() {
-            let length = bytes.len();
-            if length == 0 {
-                break;
-            }
-            count += bytes.iter().filter(|byte| **byte == b'\n').count();
-            reader.consume(length);
-        }
-        count
-    };
-    journals.map(breaks).sum()
 }
 
 /// Simulated scene along a journal.

@@ -32,7 +32,7 @@ use crate::flags::{
     DriverArgs, DriverChoice, JobArgs, OutputFormat, PageArgs, ResultArgs, SessionArgs, Speed, folder_of,
 };
 use crate::interrupt::note_open;
-use crate::output::{Colors, count, escape, note, replace_file};
+use crate::output::{Colors, count, escape, note, opened_again, replace_file};
 use crate::ready_driver::{ReadyDriver, RunSubject, open_driver};
 use crate::report::Report;
 use crate::run_view::{Clock, view};
@@ -392,15 +392,10 @@ fn now(head: &JournalHead, clock: Clock, last: Time) -> Time {
 /// World tracker at the beginning of the run; `None`, with a note, if the files of the project are gone or
 /// have changed.
 fn open_course(saved: &SavedProject, report: &mut Report) -> Option<motet_compiler::WorldTracker> {
-    match saved.open(report) {
-        Ok(Some(course)) => Some(course),
-        Ok(None) => {
-            note("the scene has changed since the run began: deferred motions are left to the driver");
-            None
-        }
-        Err(error) => {
-            note(&format!("deferred motions are left to the driver: {}", CliError::from(error)));
-            None
-        }
-    }
+    let course = saved.open(report);
+    opened_again(
+        course,
+        "the scene has changed since the run began",
+        "deferred motions are left to the driver",
+    )
 }

@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use super::journal::JournalFolder;
 use super::live::LivePage;
 use crate::error::CliError;
-use crate::output::note;
+use crate::output::opened_again;
 use motet::page::source::PolicyText;
 
 /// File with the lines of a conversation.
@@ -50,17 +50,8 @@ pub(crate) fn session(folder: &Path, sink: &mut dyn DiagnosticSink) -> Option<Pr
     });
     let saved = head.and_then(|head| SavedDriver::from_json(&head.driver).ok());
     let project = saved.as_ref().and_then(SavedDriver::project).cloned();
-    match project.or_else(|| project_of(folder))?.session(sink) {
-        Ok(Some(opened)) => Some(opened),
-        Ok(None) => {
-            note("the scene has changed since the run: the page shows no room");
-            None
-        }
-        Err(error) => {
-            note(&format!("the page shows no room: {}", CliError::from(error)));
-            None
-        }
-    }
+    let session = project.or_else(|| project_of(folder))?.session(sink);
+    opened_again(session, "the scene has changed since the run", "the page shows no room")
 }
 
 /// Folder of a conversation.

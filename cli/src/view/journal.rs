@@ -1,6 +1,5 @@
 //! Journal of a run for the page, also while another process writes it.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use motet_host::journal::{JournalError, MotionReader};
@@ -27,7 +26,7 @@ pub(crate) struct JournalFolder {
     folder: PathBuf,
     /// Number of the next entry.
     next: u64,
-    /// Bytes of the folder when it was read last.
+    /// Bytes of the journal when it was read last.
     bytes: u64,
     simulation: Option<Simulation>,
     /// Telemetry that was written down, where the run cannot be simulated again.
@@ -61,7 +60,7 @@ impl JournalFolder {
         page: &mut LivePage,
         before: &mut dyn FnMut(&mut LivePage, &JournalEntry),
     ) -> Result<bool, CliError> {
-        let bytes = size(&self.folder);
+        let bytes = motet_host::journal::size(&self.folder);
         if bytes == self.bytes {
             return Ok(false);
         }
@@ -160,10 +159,4 @@ pub(crate) fn recorded_text(folder: &Path) -> Option<PolicyText> {
         let bytes = motet_project::files::read_small(&folder.join(name)).ok()?;
         Some(PolicyText::read(name, &String::from_utf8_lossy(&bytes)))
     })
-}
-
-/// Bytes of the files in a folder.
-fn size(folder: &Path) -> u64 {
-    let files = fs::read_dir(folder).into_iter().flatten().flatten();
-    files.filter_map(|file| file.metadata().ok()).map(|file| file.len()).sum()
 }

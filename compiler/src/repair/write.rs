@@ -220,8 +220,11 @@ impl Writer<'_> {
             return None;
         }
         let spans = self.spans.get_or_init(|| {
-            let ids = (0..).map(StepId).zip(&self.program.steps).collect::<Vec<_>>().into_iter().rev();
-            ids.map(|(id, step)| (step.span, id)).collect()
+            let mut first = FxHashMap::default();
+            for (id, step) in (0..).map(StepId).zip(&self.program.steps) {
+                first.entry(step.span).or_insert(id);
+            }
+            first
         });
         let step = self.step(*spans.get(&said.span)?)?;
         let place = step.position;

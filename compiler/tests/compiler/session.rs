@@ -33,6 +33,8 @@ fn check_document_agrees_with_compile() {
         let compiled = session.compile(&document, Some(&policy.name));
         assert_eq!(policy.passes, compiled.graph.is_some());
         assert_eq!(policy.skipped_motions, compiled.skipped_motions);
+        let deferred = compiled.graph.as_ref().map_or(0, motet_graph::Graph::deferred_motions);
+        assert_eq!(policy.deferred_motions, deferred);
     }
     assert!(check.policies[0].passes && !check.policies[1].passes);
 }

@@ -132,8 +132,9 @@ pub fn decide_in(
     let budget = SearchBudget::default().times(usize::from(effort));
     let mut answered = Vec::new();
     let queries: Vec<MotionQuery> = queries.into_iter().collect();
-    let count = queries.len();
-    for (number, query) in queries.into_iter().enumerate() {
+    let mut left = queries.len();
+    for query in queries {
+        left -= 1;
         let mut answer = room.answer(&query, budget);
         if let MotionAnswer::Infeasible(why) = &mut answer {
             *why = room.explain(&query, why, budget);
@@ -141,7 +142,6 @@ pub fn decide_in(
         let text = answers::describe(&query, &answer);
         let json = answers::json_line(machine, &query, &answer);
         answered.push((query.clone(), answer.clone()));
-        let left = count.saturating_sub(number + 1);
         if each(MotionVerdict { query, answer, text, json, left }).is_break() {
             break;
         }

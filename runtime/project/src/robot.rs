@@ -217,13 +217,8 @@ impl RobotFiles {
     fn read_inside(&self, model: &ModelSpec, file: &str) -> Result<Option<(String, Vec<u8>)>, ProjectError> {
         let Home::Folder(folder) = &self.home else { return Ok(None) };
         let path = folder.join(file);
-        let packages = model.packages.iter().map(|package| folder.join(package));
-        let mut allowed =
-            [folder.clone()].into_iter().chain(packages).filter_map(|it| fs::canonicalize(it).ok());
         match fs::canonicalize(&path) {
-            Ok(found) if !allowed.any(|folder| found.starts_with(folder)) => {
-                Err(ProjectError::Outside { path })
-            }
+            Ok(found) if !is_inside(&found, &allowed(folder, model)) => Err(ProjectError::Outside { path }),
             Ok(_) | Err(_) => read_optional(&path),
         }
     }
@@ -247,12 +242,22 @@ impl RobotFiles {
         let Home::Folder(folder) = &self.home else { return MeshFolders::default() };
         let urdf = folder.join(&model.urdf);
         let own = urdf.parent().unwrap_or(folder).to_owned();
-        let packages: Vec<PathBuf> = model.packages.iter().map(|package| folder.join(package)).collect();
-        let allowed = [folder.clone(), own.clone()].into_iter().chain(packages.iter().cloned());
-        let allowed = allowed.filter_map(|folder| fs::canonicalize(folder).ok()).collect();
-        let text = |path: &PathBuf| path.display().to_string();
-        MeshFolders { own: text(&own), packages: packages.iter().map(text).collect(), allowed }
+        let text = |path: PathBuf| path.display().to_string();
+        let packages = model.packages.iter().map(|package| text(folder.join(package))).collect();
+        MeshFolders { own: text(own), packages, allowed: allowed(folder, model) }
     }
+}
+
+/// Canonical folders below which the files of a card must be, so that no link leads out of them: its own, and
+/// those of its packages. The folder of the URDF is below one of them.
+fn allowed(folder: &Path, model: &ModelSpec) -> Vec<PathBuf> {
+    let packages = model.packages.iter().map(|package| folder.join(package));
+    let folders = [folder.to_owned()].into_iter().chain(packages);
+    folders.filter_map(|folder| fs::canonicalize(folder).ok()).collect()
+}
+
+fn is_inside(path: &Path, folders: &[PathBuf]) -> bool {
+    folders.iter().any(|folder| path.starts_with(folder))
 }
 
 enum Srdf {
@@ -268,7 +273,7 @@ struct MeshFolders {
     own: String,
     /// Package folders, in the order of the card.
     packages: Vec<String>,
-    /// Canonical folders below which a mesh must be: no link leads out of them.
+    /// Canonical folders below which a mesh must be.
     allowed: Vec<PathBuf>,
 }
 
@@ -283,7 +288,7 @@ impl MeshFolders {
             let leaves = looked.is_empty() && name.split('/').any(|part| part == "..");
             return if leaves { MeshFile::Outside } else { MeshFile::Missing(looked) };
         };
-        if !self.allowed.iter().any(|folder| path.starts_with(folder)) {
+        if !is_inside(path, &self.allowed) {
             return MeshFile::Outside;
         }
         if !path.is_file() {

@@ -77,6 +77,7 @@ fn left_to_run_are_the_guards_of_the_graph() {
             *listed.entry(note.path.clone()).or_default() += 1;
         }
         assert_eq!(listed, guards(&graph), "{}", path.display());
+        assert_eq!(checked.policies[0].deferred_motions, graph.deferred_motions(), "{}", path.display());
         seen += listed.len();
     }
     assert!(seen > 10, "{seen}");

@@ -11,7 +11,6 @@ use serde_json::{Value, json};
 use super::answer::{Refusal, first};
 use super::situation::Situation;
 use super::text::{read, within};
-use crate::command::check::deferred_motions;
 
 /// The most diagnostics of an answer.
 const MAX_DIAGNOSTICS: usize = 40;
@@ -114,7 +113,7 @@ pub(super) fn plan(
         Ok(planned) => {
             let sources = situation.project.sources(Source::new("plan", planned.text.as_str()));
             let warnings = render::llm(&planned.compiled.diagnostics, &sources);
-            let left = planned.compiled.graph.as_ref().map_or(0, deferred_motions);
+            let left = planned.compiled.graph.as_ref().map_or(0, motet_graph::Graph::deferred_motions);
             let left = json!({"motions": left});
             Ok(json!({"policy": planned.text, "notes": notes, "warnings": warnings, "left_to_run": left}))
         }

@@ -122,6 +122,16 @@ pub struct Graph {
 }
 
 impl Graph {
+    /// Number of motions that the compiler left to the run.
+    #[must_use]
+    pub fn deferred_motions(&self) -> usize {
+        let is_deferred = |kind: &NodeKind| {
+            let NodeKind::Call(call) = kind else { return false };
+            call.motion.as_ref().is_some_and(|motion| motion.verdict == Verdict::Deferred)
+        };
+        self.nodes.iter().filter(|node| is_deferred(&node.kind)).count()
+    }
+
     /// A valid graph without steps, which succeeds at once.
     #[must_use]
     pub fn empty(policy: &str, robot: &str) -> Self {

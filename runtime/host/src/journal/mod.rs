@@ -11,7 +11,7 @@ mod record;
 mod write;
 
 pub use motion::MotionReader;
-pub use read::{JournalError, JournalTail, read};
+pub use read::{JournalError, JournalTail, lines, read, size};
 pub use record::RunRecorder;
 pub use write::{JournalWriter, SyncGrouping};
 

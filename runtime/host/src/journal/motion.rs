@@ -2,7 +2,7 @@
 //! journal: nothing is synced, and a lost or broken file loses nothing but the picture.
 
 use std::fs::File;
-use std::io::{BufRead as _, BufReader, Read as _, Seek as _, SeekFrom, Write as _};
+use std::io::{BufRead as _, BufReader, Read as _, Take, Write as _};
 use std::path::Path;
 
 use motet_runtime::{Moved, Time};
@@ -53,8 +53,10 @@ impl MotionFile {
 /// Reader of the telemetry beside a journal, also while another process writes it.
 #[derive(Debug, Default)]
 pub struct MotionReader {
-    /// Bytes of the lines that were read.
-    read: u64,
+    /// The file, once it is there.
+    file: Option<BufReader<Take<File>>>,
+    /// Line of which the end is not there yet.
+    line: Vec<u8>,
     /// First telemetry that was not given yet.
     next: Option<Moved>,
 }
@@ -66,16 +68,16 @@ impl MotionReader {
             return;
         }
         self.next.take().iter().for_each(&mut *take);
-        let Ok(mut file) = File::open(folder.join(FILE)) else { return };
-        if file.seek(SeekFrom::Start(self.read)).is_err() {
-            return;
+        if self.file.is_none() {
+            let file = File::open(folder.join(FILE)).ok();
+            self.file = file.map(|file| BufReader::new(file.take(2 * MAX_BYTES)));
         }
-        let mut lines = BufReader::new(file.take((2 * MAX_BYTES).saturating_sub(self.read)));
-        let mut line = Vec::new();
-        while lines.read_until(b'\n', &mut line).is_ok_and(|bytes| bytes > 0) && line.ends_with(b"\n") {
-            self.read += line.len() as u64;
-            let moved = serde_json::from_slice::<MovedParams>(&line).ok();
-            line.clear();
+        let Some(file) = &mut self.file else { return };
+        while file.read_until(b'\n', &mut self.line).is_ok_and(|bytes| bytes > 0)
+            && self.line.ends_with(b"\n")
+        {
+            let moved = serde_json::from_slice::<MovedParams>(&self.line).ok();
+            self.line.clear();
             // A line of another version says nothing.
             let Some(moved) = moved.and_then(|moved| moved.moved(Time::ZERO, true)) else { continue };
             if moved.at > at {

@@ -5,7 +5,7 @@ use motet_runtime::journal::{
     JournalDamage, JournalEntry, JournalReader, LineChain, MAX_SEGMENTS, SegmentEnd, SegmentPosition,
 };
 use std::fs::{self, File};
-use std::io::{self, Read as _};
+use std::io::{self, BufRead as _, BufReader, Read as _};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -62,6 +62,23 @@ pub fn read(folder: &Path, take: &mut dyn FnMut(u64, JournalEntry)) -> Result<Jo
         }
         None => Err(JournalError::None { path: folder.to_owned() }),
     }
+}
+
+/// Size of the segments of a journal in bytes; 0 if there is none. Other files of the folder do not count.
+#[must_use]
+pub fn size(folder: &Path) -> u64 {
+    let segments = segments(folder).unwrap_or_default().into_iter();
+    segments.filter_map(|(_, path)| fs::metadata(path).ok()).map(|file| file.len()).sum()
+}
+
+/// Number of lines of a journal, for a bar: a line is an entry. Reads the whole journal.
+#[must_use]
+pub fn lines(folder: &Path) -> usize {
+    let breaks = |path: &Path| {
+        let bytes = BufReader::new(File::open(path).ok()?).split(b'\n');
+        Some(bytes.take_while(Result::is_ok).count())
+    };
+    segments(folder).unwrap_or_default().iter().filter_map(|(_, path)| breaks(path)).sum()
 }
 
 /// The most bytes of a segment that are read. No writer makes one that large; what follows in the last one

@@ -282,12 +282,6 @@ pub trait DialogueObserver {
     fn wants_telemetry(&self) -> bool {
         false
     }
-    /// True if it wants a picture of the robot's camera now.
-    fn wants_picture(&self) -> bool {
-        false
-    }
-    /// Takes in the picture that it wanted; `None` if the driver has none.
-    fn pictured(&mut self, _image: Option<CameraImage>) {}
     /// The driver saw something new.
     fn detected(&mut self, _now: Time, _seen: &[Detection]) {}
     /// The driver sent telemetry.

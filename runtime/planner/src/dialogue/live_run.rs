@@ -10,9 +10,9 @@ use motet_requests::{
 };
 use motet_robots::scene::Scene;
 use motet_runtime::{
-    Answer, CameraImage, Detection, Driver, DriverEvent, Effect, Engine, Event, GoalId, Heard, Moved,
-    Observer, Outcome as GoalOutcome, PreparedSwap, Query, RetiredGraph, RunControl, RunEnd, SwapRefusal,
-    Time, ToldThing, Verifier,
+    Answer, Detection, Driver, DriverEvent, Effect, Engine, Event, GoalId, Heard, Moved, Observer,
+    Outcome as GoalOutcome, PreparedSwap, Query, RetiredGraph, RunControl, RunEnd, SwapRefusal, Time,
+    ToldThing, Verifier,
 };
 use motet_stdlib::lang::{failures, primitives};
 use smol_str::SmolStr;
@@ -457,14 +457,6 @@ impl Observer for LiveRun<'_, '_> {
 
     fn wants_telemetry(&self) -> bool {
         self.watcher.wants_telemetry()
-    }
-
-    fn wants_picture(&self) -> bool {
-        self.watcher.wants_picture()
-    }
-
-    fn pictured(&mut self, image: Option<CameraImage>) {
-        self.watcher.pictured(image);
     }
 
     fn moved(&mut self, moved: &Moved) {
