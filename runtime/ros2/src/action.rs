@@ -24,10 +24,13 @@ const ASKS_AGAIN: Duration = Duration::from_secs(2);
 const CANCELS_AGAIN: Duration = Duration::from_millis(500);
 /// Number of times that a cancel is sent.
 const CANCELS: u32 = 6;
+/// Greatest number of goals that were given up and are still remembered.
+const MAX_LOST: usize = 1_000;
 
 /// Codes of the state of a goal in `action_msgs/GoalStatus`.
 mod status {
     pub(crate) const UNKNOWN: i64 = 0;
+    pub(crate) const ACCEPTED: i64 = 1;
     pub(crate) const EXECUTING: i64 = 2;
     pub(crate) const CANCELING: i64 = 3;
     pub(crate) const SUCCEEDED: i64 = 4;
@@ -71,6 +74,18 @@ struct Goal {
     missing: Option<Instant>,
 }
 
+/// A goal that was given up. Its server may still carry it out, so it is canceled until the server says that
+/// it does not.
+#[derive(Debug)]
+struct LostGoal {
+    id: Uuid,
+    cancels: u32,
+    canceled: Instant,
+    ticket: Option<Ticket>,
+    /// The server says that the goal is over, is being canceled, or was never there.
+    is_settled: bool,
+}
+
 /// Client of an action server.
 pub(crate) struct ActionClient {
     /// Name of the action, such as `/arm_controller/follow_joint_trajectory`.
@@ -81,8 +96,12 @@ pub(crate) struct ActionClient {
     result: Client,
     first: Source,
     goals: Vec<Goal>,
-    /// Goals that were given up. A late acceptance of one is canceled.
-    lost: Vec<Uuid>,
+    /// Goals that were given up, the oldest first. A late acceptance of one is canceled.
+    lost: Vec<LostGoal>,
+    /// Cancel of all goals that the server has not answered, with its time.
+    all: Option<(Option<Ticket>, Instant)>,
+    /// True if the server told last that some goal is not over.
+    is_busy: bool,
 }
 
 impl ActionClient {
@@ -121,22 +140,26 @@ impl ActionClient {
             first + 4,
         )?;
         let (name, type_name) = (name.to_owned(), type_name.to_owned());
-        Ok(Self { name, type_name, send, cancel, result, first, goals: Vec::new(), lost: Vec::new() })
+        let (goals, lost) = (Vec::new(), Vec::new());
+        Ok(Self { name, type_name, send, cancel, result, first, goals, lost, all: None, is_busy: false })
     }
 
-    /// Takes over the goals of a client whose participant was given up, and asks for their results again.
-    /// What was sent and not answered shows in the state that the server tells.
+    /// Takes over the goals of a client whose participant was given up, and asks for their results again. The
+    /// state that the server tells says if it has taken a goal whose answer was lost.
     pub(crate) fn adopt(&mut self, before: &mut Self) {
         self.lost = std::mem::take(&mut before.lost);
+        self.lost.iter_mut().for_each(|lost| lost.ticket = None);
         self.goals = std::mem::take(&mut before.goals);
+        self.all = before.all.map(|(_, sent)| (None, sent));
+        self.is_busy = before.is_busy;
         for goal in &mut self.goals {
             (goal.ticket, goal.asked) = (None, None);
         }
     }
 
-    /// Names of the topics on which the server writes.
-    pub(crate) fn topics(&self) -> [String; 1] {
-        [dds_topic("rt", &self.name, "/_action/status")]
+    /// Topic on which the server tells the states of its goals.
+    pub(crate) fn status_topic(&self) -> String {
+        dds_topic("rt", &self.name, "/_action/status")
     }
 
     /// Endpoints of the server that DDS has not discovered, of all five. A goal that is sent before all are
@@ -193,7 +216,32 @@ impl ActionClient {
             goal.canceled = Some(Instant::now());
         }
         // A cancel that DDS does not take is sent again.
-        let _ = self.cancel.call(layouts, &json!({"goal_info": {"goal_id": {"uuid": id}}}));
+        let ticket = self.cancel.call(layouts, &json!({"goal_info": {"goal_id": {"uuid": id}}})).ok();
+        if let Some(lost) = self.lost.iter_mut().find(|lost| lost.id == id) {
+            lost.ticket.take().into_iter().for_each(|ticket| self.cancel.forget(ticket));
+            (lost.cancels, lost.canceled, lost.ticket) = (lost.cancels + 1, Instant::now(), ticket);
+        }
+    }
+
+    /// Cancels all goals of the server, whoever sent them, and goals that were given up once more.
+    pub(crate) fn cancel_all(&mut self, layouts: &Layouts) {
+        self.all.and_then(|(ticket, _)| ticket).into_iter().for_each(|ticket| self.cancel.forget(ticket));
+        // An id of zeros and no time stand for all goals.
+        let ticket = self.cancel.call(layouts, &json!({})).ok();
+        self.all = Some((ticket, Instant::now()));
+        self.lost.iter_mut().filter(|lost| !lost.is_settled).for_each(|lost| lost.cancels = 0);
+    }
+
+    /// True if a goal that was given up runs no more, as far as its server says.
+    #[must_use]
+    pub(crate) fn is_settled(&self, id: Uuid) -> bool {
+        self.lost.iter().all(|lost| lost.id != id || lost.is_settled)
+    }
+
+    /// True if the server says that no goal runs, and has answered the cancel of all goals.
+    #[must_use]
+    pub(crate) fn is_idle(&self) -> bool {
+        self.all.is_none() && !self.is_busy && self.lost.iter().all(|lost| lost.is_settled)
     }
 
     /// Takes in a message of this action.
@@ -212,11 +260,21 @@ impl ActionClient {
                 .hear(layouts, received)?
                 .map_or_else(Vec::new, |(ticket, response)| self.ended(layouts, ticket, response))),
             2 => {
-                if let Some((_, response)) = self.cancel.hear(layouts, received)? {
+                if let Some((ticket, response)) = self.cancel.hear(layouts, received)? {
                     let listed =
                         response.list("goals_canceling").iter().filter_map(|info| uuid(info, "goal_id"));
                     let listed: Vec<Uuid> = listed.collect();
                     self.goals.iter_mut().for_each(|goal| goal.is_cancel_heard |= listed.contains(&goal.id));
+                    let is_rejected = response.number("return_code") == REJECTED;
+                    if self.all.is_some_and(|(asked, _)| asked == Some(ticket)) {
+                        self.all = None;
+                        self.is_busy &= is_rejected || !listed.is_empty();
+                    }
+                    // A server that lists the goal heeds; one that does not know it, or says that it is over,
+                    // does not carry it out.
+                    for lost in self.lost.iter_mut().filter(|lost| lost.ticket == Some(ticket)) {
+                        lost.is_settled |= !is_rejected;
+                    }
                 }
                 Ok(Vec::new())
             }
@@ -293,23 +351,36 @@ impl ActionClient {
         let goal = self.goals.swap_remove(at);
         goal.ticket.into_iter().for_each(|ticket| self.send.forget(ticket));
         goal.asked.into_iter().for_each(|(ticket, _)| self.result.forget(ticket));
-        self.cancel(layouts, goal.id);
-        self.lost.push(goal.id);
-        if self.lost.len() > 1_000 {
+        let (id, canceled) = (goal.id, Instant::now());
+        self.lost.push(LostGoal { id, cancels: 0, canceled, ticket: None, is_settled: false });
+        if self.lost.len() > MAX_LOST {
             self.lost.remove(0);
         }
+        self.cancel(layouts, id);
         vec![News::Ended(goal.id, End::Lost(format!("{why} ({})", self.name)))]
+    }
+
+    /// Gives up a goal of which nobody waits for the end any more.
+    pub(crate) fn give_up(&mut self, layouts: &Layouts, id: Uuid) {
+        if let Some(at) = self.goals.iter().position(|goal| goal.id == id) {
+            self.lose(layouts, at, "nobody waits for its end");
+        }
     }
 
     /// Takes in the states of all goals of the server.
     fn states(&mut self, layouts: &Layouts, message: &Message) -> Vec<News> {
         let mut news = Vec::new();
+        self.is_busy = false;
         for state in message.list("status_list") {
             let Some(id) = uuid(state, "goal_info.goal_id") else { continue };
             #[allow(clippy::cast_possible_truncation, reason = "a status is small")]
             let status = state.number("status") as i64;
-            if self.lost.contains(&id) && status == status::EXECUTING {
-                self.cancel(layouts, id);
+            self.is_busy |= (status::ACCEPTED..=status::CANCELING).contains(&status);
+            if let Some(lost) = self.lost.iter_mut().find(|lost| lost.id == id) {
+                lost.is_settled = status > status::EXECUTING;
+                if !lost.is_settled && lost.canceled.elapsed() > CANCELS_AGAIN {
+                    self.cancel(layouts, id);
+                }
             }
             let Some(at) = self.goals.iter().position(|goal| goal.id == id) else { continue };
             if (status::EXECUTING..=status::ABORTED).contains(&status) {
@@ -329,6 +400,8 @@ impl ActionClient {
     /// `is_there` says if DDS knows the endpoints of the server.
     pub(crate) fn tick(&mut self, layouts: &Layouts, is_there: bool) -> Vec<News> {
         let mut news = Vec::new();
+        self.repeat_cancels(layouts);
+        self.is_busy &= is_there;
         let mut at = 0;
         while at < self.goals.len() {
             let goal = &mut self.goals[at];
@@ -353,7 +426,22 @@ impl ActionClient {
         }
         news
     }
+
+    /// Sends again what cancels goals that were given up, and all goals, until it is answered.
+    fn repeat_cancels(&mut self, layouts: &Layouts) {
+        let is_due = |lost: &&LostGoal| {
+            !lost.is_settled && lost.cancels < CANCELS && lost.canceled.elapsed() > CANCELS_AGAIN
+        };
+        let due: Vec<Uuid> = self.lost.iter().filter(is_due).map(|lost| lost.id).collect();
+        due.into_iter().for_each(|id| self.cancel(layouts, id));
+        if self.all.is_some_and(|(_, sent)| sent.elapsed() > CANCELS_AGAIN) {
+            self.cancel_all(layouts);
+        }
+    }
 }
+
+/// Code of a cancel that a server refuses, in `action_msgs/CancelGoal`.
+const REJECTED: f64 = 1.0;
 
 /// Id of a goal at a path.
 #[must_use]

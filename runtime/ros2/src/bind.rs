@@ -1,5 +1,9 @@
 //! The binding of a robot: a TOML file that says which actions, services and topics carry out its primitives.
 
+mod step;
+
+pub(crate) use step::{Call, CallKind, Deed, Direction, Opening, Primitive, Step};
+
 use crate::group::MoveGroup;
 use crate::layout::Distribution;
 use crate::service::Middleware;
@@ -227,159 +231,14 @@ pub(crate) struct Gripper {
     pub(crate) offset: f64,
     #[serde(default = "late")]
     pub(crate) timeout_secs: f64,
+    /// Joints of the hand by their names in ROS. Without them an interrupted goal of the hand waits for the
+    /// whole robot to stand still.
+    #[serde(default)]
+    pub(crate) joints: Vec<String>,
 }
 
 const fn one() -> f64 {
     1.0
-}
-
-/// Primitive as steps, one after the other.
-#[derive(Clone, PartialEq, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Primitive {
-    pub(crate) steps: Vec<StepTable>,
-}
-
-/// Step as the file writes it: exactly one of its first ten keys.
-#[derive(Clone, PartialEq, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub(crate) struct StepTable {
-    motion: Option<Direction>,
-    gripper: Option<Opening>,
-    action: Option<String>,
-    service: Option<String>,
-    topic: Option<String>,
-    wait_secs: Option<f64>,
-    require: Option<String>,
-    look: Option<bool>,
-    detect: Option<bool>,
-    answer: Option<String>,
-    #[serde(rename = "type")]
-    type_name: Option<String>,
-    message: Option<Value>,
-    timeout_secs: Option<f64>,
-    /// Failure of the step.
-    fails: Option<String>,
-    /// Words of the failure.
-    text: Option<String>,
-    /// Expression of the result.
-    value: Option<String>,
-}
-
-/// Way along a path.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub(crate) enum Direction {
-    There,
-    Back,
-}
-
-/// Goal of the hand.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub(crate) enum Opening {
-    Open,
-    Close,
-    /// As wide as the grasp of the path asks for.
-    Width,
-}
-
-/// Message to an action, a service or a topic.
-#[derive(Clone, PartialEq, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Call {
-    pub(crate) kind: CallKind,
-    pub(crate) name: String,
-    #[serde(rename = "type")]
-    pub(crate) type_name: String,
-    #[serde(default)]
-    pub(crate) message: Value,
-    #[serde(default = "late")]
-    pub(crate) timeout_secs: f64,
-}
-
-/// Kind of interface.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub(crate) enum CallKind {
-    Action,
-    Service,
-    Topic,
-}
-
-/// Step of a primitive.
-#[derive(Clone, PartialEq, Debug)]
-pub(crate) struct Step {
-    pub(crate) deed: Deed,
-    /// Failure if the step does not succeed; the first that the primitive declares without one.
-    pub(crate) fails: Option<String>,
-    pub(crate) text: Option<String>,
-}
-
-/// What a step does.
-#[derive(Clone, PartialEq, Debug)]
-pub(crate) enum Deed {
-    Motion(Direction),
-    Gripper(Opening),
-    Call(Call),
-    Wait(f64),
-    /// Expression that must hold.
-    Require(String),
-    /// Turn the camera to the entity that the first argument is or describes, if it is known where that is.
-    Look,
-    /// Wait for a detection of what the first argument describes.
-    Detect,
-    /// Wait for a message of a topic; the expression over it is the result.
-    Answer {
-        topic: String,
-        type_name: String,
-        value: String,
-        timeout_secs: f64,
-    },
-}
-
-impl StepTable {
-    /// The step.
-    ///
-    /// # Errors
-    ///
-    /// The keys that are missing, or are too many.
-    pub(crate) fn step(&self) -> Result<Step, String> {
-        let call = |kind, name: &String| -> Result<Deed, String> {
-            let type_name = self.type_name.clone().ok_or_else(|| format!("`{name}` needs a `type`"))?;
-            let message = self.message.clone().unwrap_or_default();
-            let timeout_secs = self.timeout_secs.unwrap_or_else(late);
-            Ok(Deed::Call(Call { kind, name: name.clone(), type_name, message, timeout_secs }))
-        };
-        let answer = |topic: &String| -> Result<Deed, String> {
-            let type_name = self.type_name.clone().ok_or_else(|| format!("`{topic}` needs a `type`"))?;
-            let value = self.value.clone().ok_or_else(|| format!("`{topic}` needs a `value`"))?;
-            let timeout_secs = self.timeout_secs.unwrap_or(60.0);
-            Ok(Deed::Answer { topic: topic.clone(), type_name, value, timeout_secs })
-        };
-        let deeds = [
-            self.motion.map(|direction| Ok(Deed::Motion(direction))),
-            self.gripper.map(|opening| Ok(Deed::Gripper(opening))),
-            self.action.as_ref().map(|name| call(CallKind::Action, name)),
-            self.service.as_ref().map(|name| call(CallKind::Service, name)),
-            self.topic.as_ref().map(|name| call(CallKind::Topic, name)),
-            self.wait_secs.map(|secs| Ok(Deed::Wait(secs))),
-            self.require.as_ref().map(|text| Ok(Deed::Require(text.clone()))),
-            self.look.filter(|is_set| *is_set).map(|_| Ok(Deed::Look)),
-            self.detect.filter(|is_set| *is_set).map(|_| Ok(Deed::Detect)),
-            self.answer.as_ref().map(answer),
-        ];
-        let mut deeds = deeds.into_iter().flatten();
-        let deed = match (deeds.next(), deeds.next()) {
-            (Some(deed), None) => deed?,
-            _ => {
-                return Err("a step has exactly one of motion, gripper, action, service, topic, wait_secs, \
-                            require, look, detect and answer"
-                    .to_owned());
-            }
-        };
-        Ok(Step { deed, fails: self.fails.clone(), text: self.text.clone() })
-    }
 }
 
 /// Fact or measure from the messages of a topic.
@@ -452,6 +311,10 @@ impl Binding {
     ///
     /// The place that is wrong.
     pub(crate) fn parse(text: &str, name: &str) -> Result<Self, String> {
+        let table: toml::Value = toml::from_str(text).map_err(|error| format!("{name}: {error}"))?;
+        if let Some(place) = not_finite(&table) {
+            return Err(format!("{name}: `{place}` is no finite number"));
+        }
         let mut binding: Self = toml::from_str(text).map_err(|error| format!("{name}: {error}"))?;
         for (primitive, steps) in &binding.primitives {
             for (at, step) in steps.steps.iter().enumerate() {
@@ -503,10 +366,7 @@ impl Binding {
         self.move_group.iter_mut().for_each(|one| full(&mut one.action));
         self.gripper.iter_mut().for_each(|one| full(&mut one.action));
         for step in self.primitives.values_mut().flat_map(|one| &mut one.steps) {
-            step.action.iter_mut().for_each(full);
-            step.service.iter_mut().for_each(full);
-            step.topic.iter_mut().for_each(full);
-            step.answer.iter_mut().for_each(full);
+            step.names().for_each(full);
         }
         self.facts.values_mut().chain(self.measures.values_mut()).for_each(|one| full(&mut one.topic));
         for camera in &mut self.cameras {
@@ -536,6 +396,20 @@ impl Binding {
         self.controllers.iter().any(|controller| controller.joints.iter().any(|own| own == joint))
     }
 
+    /// Joints by their names in ROS that controllers and the hand move.
+    pub(crate) fn joints_that_move(&self) -> impl Iterator<Item = &String> {
+        let controlled = self.controllers.iter().flat_map(|controller| &controller.joints);
+        controlled.chain(self.gripper.iter().flat_map(|gripper| &gripper.joints))
+    }
+
+    /// True if a primitive can be held: what moves it are motions and the hand, which go on from where they
+    /// were.
+    #[must_use]
+    pub(crate) fn holds(&self, primitive: &str) -> bool {
+        let is_free = |step: &Step| !matches!(&step.deed, Deed::Call(call) if call.moves);
+        self.steps(primitive).is_some_and(|steps| steps.iter().all(is_free))
+    }
+
     /// Steps of a primitive; `None` if it is not bound.
     #[must_use]
     pub(crate) fn steps(&self, primitive: &str) -> Option<Vec<Step>> {
@@ -548,6 +422,21 @@ impl Binding {
     pub(crate) fn domain(&self) -> u16 {
         let of_environment = || std::env::var("ROS_DOMAIN_ID").ok()?.trim().parse().ok();
         self.ros.domain.or_else(of_environment).unwrap_or(0)
+    }
+}
+
+/// Place of the first number that is infinite or none.
+fn not_finite(value: &toml::Value) -> Option<String> {
+    let below = |key: String, value: &toml::Value| {
+        not_finite(value).map(|rest| if rest.is_empty() { key.clone() } else { format!("{key}.{rest}") })
+    };
+    match value {
+        toml::Value::Float(number) => (!number.is_finite()).then(String::new),
+        toml::Value::Array(values) => {
+            values.iter().enumerate().find_map(|(at, value)| below((at + 1).to_string(), value))
+        }
+        toml::Value::Table(table) => table.iter().find_map(|(key, value)| below(key.clone(), value)),
+        _ => None,
     }
 }
 
@@ -573,6 +462,8 @@ mod tests {
         assert!(steps.starts_with("own: step 1 of go: a step has exactly one of"), "{steps}");
         let hand = wrong(&format!("{joints}[primitives.pick]\nsteps = [{{ gripper = \"open\" }}]"));
         assert_eq!(hand, "own: step 1 of pick needs a table [gripper]");
+        let none = wrong(&format!("{joints}[primitives.say]\nsteps = [{{ wait_secs = nan }}]"));
+        assert_eq!(none, "own: `primitives.say.steps.1.wait_secs` is no finite number");
         let arm = wrong(&format!("{joints}[[controllers]]\naction = \"arm\""));
         assert_eq!(arm, "own: the controller `arm` has either joints or a base of three axes");
     }

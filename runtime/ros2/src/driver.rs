@@ -1,11 +1,12 @@
 //! The driver protocol on standard input and output, in front of the robot.
 
-use crate::lines::Line;
+mod stopping;
+
+use crate::lines::{Line, Output};
 use crate::observe::Found;
 use crate::plan::Card;
 use crate::robot::{Heard, Robot};
-use crate::state::Parts;
-use crate::task::{Finish, Surroundings, Task, stand_still};
+use crate::task::{Finish, Surroundings, Task};
 use crate::world::{Place, World};
 use crossbeam_channel::{Receiver, select, tick};
 use motet_graph::Value as Argument;
@@ -17,8 +18,8 @@ use motet_host::remote::protocol::{
 };
 use motet_runtime::{Answer, Capabilities, FailureReport, GoalId, Pattern, PrimitiveSet, Query, ToldSupport};
 use serde_json::{Value, json};
-use std::collections::{BTreeMap, HashMap};
-use std::io::Write;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
 
 /// Time between two looks at what runs.
@@ -29,8 +30,10 @@ const MOVES: Duration = Duration::from_millis(50);
 const WATCHES: Duration = Duration::from_millis(50);
 /// Silence after which the host is gone.
 const SILENCE: Duration = Duration::from_secs(5);
-/// Time for everything to stand still before the process ends.
-const FAREWELL: Duration = Duration::from_millis(4500);
+/// Messages that are taken in before anything moves on.
+const BURST: usize = 1_024;
+/// Goals whose end is remembered.
+const MAX_GOALS: usize = 100_000;
 /// Error codes of JSON-RPC.
 const INVALID: i64 = -32602;
 const UNKNOWN_METHOD: i64 = -32601;
@@ -46,28 +49,38 @@ enum Goal {
 }
 
 /// The driver: goals, watched queries, and the robot.
-pub(crate) struct Driver<W> {
+pub(crate) struct Driver {
     robot: Robot,
     world: World,
     card: Card,
-    out: W,
+    out: Output,
     run: Option<String>,
     fails: HashMap<String, Vec<String>>,
     goals: BTreeMap<u64, Goal>,
-    /// Safe stops of goals that do not run any more: the whole robot is to stand still.
-    stopping: BTreeMap<u64, Instant>,
+    /// Goals up to this one are forgotten.
+    forgotten: u64,
+    /// Goals of the run before, which are being stopped. No other goal begins before they have.
+    former: Vec<Task>,
+    /// Safe stops of goals that do not run any more.
+    stopping: BTreeSet<u64>,
+    /// The whole robot is to come to rest; the time of the last stop that was sent.
+    whole_stop: Option<Instant>,
     watched: Vec<(Query, Answer)>,
     detections: Vec<motet_host::remote::protocol::DetectedThing>,
+    /// Name of this process, and how often it has forgotten the goals of a run.
     instance: String,
+    forgets: u32,
+    /// Goals that were lost, of which the host has asked for the state.
+    lost_again: Vec<GoalId>,
     heard: Instant,
     moved: Instant,
     looked: Instant,
     is_greeted: bool,
 }
 
-impl<W: Write> Driver<W> {
+impl Driver {
     /// A driver of a robot in a room.
-    pub(crate) fn new(robot: Robot, world: World, card: Card, out: W) -> Self {
+    pub(crate) fn new(robot: Robot, world: World, card: Card, out: Output) -> Self {
         let started = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).unwrap_or_default();
         let now = Instant::now();
         Self {
@@ -78,10 +91,15 @@ impl<W: Write> Driver<W> {
             run: None,
             fails: HashMap::new(),
             goals: BTreeMap::new(),
-            stopping: BTreeMap::new(),
+            forgotten: 0,
+            former: Vec::new(),
+            stopping: BTreeSet::new(),
+            whole_stop: None,
             watched: Vec::new(),
             detections: Vec::new(),
             instance: format!("{}-{}", std::process::id(), started.as_nanos()),
+            forgets: 0,
+            lost_again: Vec::new(),
             heard: now,
             moved: now,
             looked: now,
@@ -93,8 +111,18 @@ impl<W: Write> Driver<W> {
     ///
     /// # Errors
     ///
-    /// Why a line of the host cannot be read, or an answer cannot be written.
+    /// Why a line of the host cannot be read, an answer cannot be written, or nobody knows that the robot stands
+    /// still.
     pub(crate) fn serve(&mut self, lines: &Receiver<Line>) -> Result<(), String> {
+        // A panic is a defect of the driver, and no reason to let the robot move on.
+        let served = catch_unwind(AssertUnwindSafe(|| self.listen(lines)));
+        let left = catch_unwind(AssertUnwindSafe(|| self.leave()));
+        let broken = || Err("the driver has a defect; see above".to_owned());
+        served.unwrap_or_else(|_| broken()).and(left.unwrap_or_else(|_| broken()))
+    }
+
+    /// Answers the host until it leaves.
+    fn listen(&mut self, lines: &Receiver<Line>) -> Result<(), String> {
         let ticks = tick(TICK);
         let received = self.robot.received.clone();
         loop {
@@ -103,30 +131,26 @@ impl<W: Write> Driver<W> {
                     Ok(Line::Text(line)) => {
                         self.heard = Instant::now();
                         if !self.answer(&line)? {
-                            return self.leave();
+                            return Ok(());
                         }
                     }
-                    Ok(Line::Wrong(why)) => {
-                        let _ = self.leave();
-                        return Err(why);
-                    }
-                    Ok(Line::End) | Err(_) => return self.leave(),
+                    Ok(Line::Wrong(why)) => return Err(why),
+                    Ok(Line::End) | Err(_) => return Ok(()),
                 },
                 recv(received) -> message => {
                     if let Ok(message) = message {
                         self.take(&message);
                     }
                     // Whatever else has come, before anything moves on.
-                    while let Ok(message) = received.try_recv() {
-                        self.take(&message);
-                    }
+                    let others: Vec<_> = received.try_iter().take(BURST).collect();
+                    others.iter().for_each(|message| self.take(message));
                 }
                 recv(ticks) -> _ => {
                     let heard = self.robot.tick();
                     self.pass(&heard);
                     if self.is_greeted && self.heard.elapsed() > SILENCE {
                         eprintln!("motet-ros2: the host has said nothing for 5 s; everything stops");
-                        return self.leave();
+                        return Ok(());
                     }
                 }
             }
@@ -156,19 +180,25 @@ impl<W: Write> Driver<W> {
             }
             let mut around =
                 Surroundings { robot: &mut self.robot, world: &mut self.world, card: &self.card };
-            for goal in self.goals.values_mut() {
-                if let Goal::Running(task) = goal {
-                    task.hear(&mut around, news);
-                }
-            }
+            let running = self.goals.values_mut().filter_map(|goal| match goal {
+                Goal::Running(task) => Some(task.as_mut()),
+                _ => None,
+            });
+            running.chain(&mut self.former).for_each(|task| task.hear(&mut around, news));
         }
     }
 
     /// Lets all goals go on, and reports what has changed.
     fn advance(&mut self) -> Result<(), String> {
         let mut reports = Vec::new();
+        self.advance_former();
+        // While the whole robot stops, only what stops goes on.
+        let is_free = self.former.is_empty() && self.whole_stop.is_none();
         for (number, goal) in &mut self.goals {
             let Goal::Running(task) = goal else { continue };
+            if !is_free && !task.is_stopping() {
+                continue;
+            }
             let mut around =
                 Surroundings { robot: &mut self.robot, world: &mut self.world, card: &self.card };
             let finish = task.advance(&mut around);
@@ -199,28 +229,12 @@ impl<W: Write> Driver<W> {
                 }
             }
         }
-        reports.extend(self.stopped_goals());
+        let again = std::mem::take(&mut self.lost_again).into_iter();
+        reports.extend(again.map(|goal| DriverReport::Lost(GoalParams { goal })));
+        reports.extend(self.advance_whole_stop());
         reports.extend(self.changes());
         reports.extend(self.telemetry());
         reports.iter().try_for_each(|report| self.report(report))
-    }
-
-    /// Goals of safe stops for which the whole robot now stands still.
-    fn stopped_goals(&mut self) -> Vec<DriverReport> {
-        if self.stopping.is_empty() {
-            return Vec::new();
-        }
-        if self.robot.body.is_still(&Parts::All, &self.robot.binding) {
-            let stopped = std::mem::take(&mut self.stopping).into_keys().map(GoalId::from_number);
-            return stopped.map(|goal| DriverReport::Stopped(GoalParams { goal })).collect();
-        }
-        let is_due = self.stopping.values().any(|sent| sent.elapsed() > Duration::from_millis(500));
-        if is_due && self.goals.values().all(|goal| !matches!(goal, Goal::Running(_))) {
-            self.stopping.values_mut().for_each(|sent| *sent = Instant::now());
-            let parts = self.robot.parts();
-            stand_still(&mut self.robot, &parts);
-        }
-        Vec::new()
     }
 
     /// Answers of watched queries that have changed.
@@ -245,7 +259,7 @@ impl<W: Write> Driver<W> {
     }
 
     fn telemetry(&mut self) -> Option<DriverReport> {
-        if !self.is_greeted || self.moved.elapsed() < MOVES {
+        if !self.is_greeted || self.moved.elapsed() < MOVES || self.out.is_behind() {
             return None;
         }
         self.moved = Instant::now();
@@ -338,12 +352,8 @@ impl<W: Write> Driver<W> {
             }
             DriverCall::SafeStop(GoalParams { goal }) => {
                 if !self.with_task(goal, Task::safe_stop) {
-                    self.goals.entry(goal.number()).or_insert(Goal::Stopped);
-                    self.stopping.insert(goal.number(), Instant::now());
-                    let parts = self.robot.parts();
-                    if !self.robot.body.is_still(&Parts::All, &self.robot.binding) {
-                        stand_still(&mut self.robot, &parts);
-                    }
+                    self.stopping.insert(goal.number());
+                    self.stop_whole();
                 }
                 nothing
             }
@@ -374,6 +384,10 @@ impl<W: Write> Driver<W> {
                 nothing
             }
             DriverCall::Status(asked) => {
+                // To a host that has not heard of it, a goal that was lost is told again.
+                let is_lost = |goal: &&GoalId| matches!(self.goals.get(&goal.number()), Some(Goal::Lost));
+                let lost: Vec<GoalId> = asked.goals.iter().filter(is_lost).copied().collect();
+                self.lost_again.extend(lost);
                 let state = |goal: &GoalId| GoalState { goal: *goal, state: self.status(*goal) };
                 value(&StatusResult { goals: asked.goals.iter().map(state).collect() })
             }
@@ -395,7 +409,17 @@ impl<W: Write> Driver<W> {
         }
         if self.run.as_ref().is_some_and(|run| *run != hello.run) {
             self.stop_all();
-            self.goals.clear();
+            let goals = std::mem::take(&mut self.goals).into_values();
+            for goal in goals {
+                match goal {
+                    Goal::Running(task) => self.former.push(*task),
+                    Goal::Lost => self.stop_whole(),
+                    Goal::Refused(_) | Goal::Ended(_) | Goal::Stopped => {}
+                }
+            }
+            self.forgotten = 0;
+            // Who knew the driver before is not to take a goal that it has forgotten for one that never began.
+            self.forgets += 1;
             self.stopping.clear();
             self.watched.clear();
         }
@@ -403,9 +427,11 @@ impl<W: Write> Driver<W> {
         self.is_greeted = true;
         let fails = |fails: &[smol_str::SmolStr]| fails.iter().map(ToString::to_string).collect();
         self.fails = hello.primitives.iter().map(|one| (one.name.clone(), fails(&one.fails))).collect();
+        let binding = &self.robot.binding;
+        let holds = binding.primitives.keys().filter(|name| binding.holds(name));
         let capabilities = Capabilities {
-            hold: PrimitiveSet::All,
-            update: PrimitiveSet::Only(std::collections::BTreeSet::new()),
+            hold: PrimitiveSet::Only(holds.map(|name| name.as_str().into()).collect()),
+            update: PrimitiveSet::Only(BTreeSet::new()),
             moved: true,
             look: !self.robot.binding.cameras.is_empty(),
             detections: self.robot.binding.detections.is_some(),
@@ -413,11 +439,15 @@ impl<W: Write> Driver<W> {
             ..Capabilities::default()
         };
         let driver = concat!("motet-ros2 ", env!("CARGO_PKG_VERSION")).to_owned();
-        value(&Welcome { protocol: VERSION, driver, instance: self.instance.clone(), capabilities })
+        let instance = format!("{}-{}", self.instance, self.forgets);
+        value(&Welcome { protocol: VERSION, driver, instance, capabilities })
     }
 
     fn start(&mut self, start: &StartParams) -> Result<Value, (i64, String, Value)> {
         let number = start.goal.number();
+        if number <= self.forgotten && !self.goals.contains_key(&number) {
+            return Err((INVALID, "the goal was started long ago".to_owned(), Value::Null));
+        }
         if !self.goals.contains_key(&number) {
             let primitive = start.command.primitive.as_str();
             let fails = self.fails.get(primitive).cloned().unwrap_or_default();
@@ -430,6 +460,7 @@ impl<W: Write> Driver<W> {
                 }
             };
             self.goals.insert(number, goal);
+            self.forget_oldest();
         }
         match self.goals.get(&number) {
             Some(Goal::Refused(failure)) => {
@@ -440,11 +471,26 @@ impl<W: Write> Driver<W> {
         }
     }
 
+    /// Forgets the ends of the oldest goals, beyond as many as are remembered.
+    fn forget_oldest(&mut self) {
+        if self.goals.len() <= MAX_GOALS {
+            return;
+        }
+        let is_over =
+            |(_, goal): &(&u64, &Goal)| matches!(goal, Goal::Refused(_) | Goal::Ended(_) | Goal::Stopped);
+        if let Some(number) = self.goals.iter().find(is_over).map(|(number, _)| *number) {
+            self.goals.remove(&number);
+            self.forgotten = self.forgotten.max(number);
+        }
+    }
+
     fn status(&self, goal: GoalId) -> GoalStatus {
+        if self.stopping.contains(&goal.number()) {
+            return GoalStatus::Running;
+        }
         match self.goals.get(&goal.number()) {
-            // Of a goal that was lost nobody knows more.
-            None | Some(Goal::Lost) => GoalStatus::Unknown,
-            Some(Goal::Running(_)) => GoalStatus::Running,
+            None => GoalStatus::Unknown,
+            Some(Goal::Running(_) | Goal::Lost) => GoalStatus::Running,
             Some(Goal::Refused(failure)) => GoalStatus::Refused(failure.clone()),
             Some(Goal::Ended(outcome)) => GoalStatus::Ended(outcome.clone()),
             Some(Goal::Stopped) => GoalStatus::Stopped,
@@ -459,36 +505,7 @@ impl<W: Write> Driver<W> {
         true
     }
 
-    fn stop_all(&mut self) {
-        let running: Vec<u64> = self.goals.keys().copied().collect();
-        for number in running {
-            self.with_task(GoalId::from_number(number), Task::safe_stop);
-        }
-    }
-
-    /// Stops everything, and waits for standstill.
-    fn leave(&mut self) -> Result<(), String> {
-        self.stop_all();
-        let (begun, received) = (Instant::now(), self.robot.received.clone());
-        loop {
-            let is_running = self.goals.values().any(|goal| matches!(goal, Goal::Running(_)));
-            if !is_running {
-                return Ok(());
-            }
-            if begun.elapsed() > FAREWELL {
-                return Err("the robot still moves, or nobody says that it stands still".to_owned());
-            }
-            if let Ok(message) = received.recv_timeout(TICK) {
-                self.take(&message);
-            }
-            let heard = self.robot.tick();
-            self.pass(&heard);
-            // The host may not listen any more.
-            let _ = self.advance();
-        }
-    }
-
-    fn report(&mut self, report: &DriverReport) -> Result<(), String> {
+    fn report(&self, report: &DriverReport) -> Result<(), String> {
         let mut message = serde_json::to_value(report).map_err(|error| error.to_string())?;
         if let Some(fields) = message.as_object_mut() {
             fields.insert("jsonrpc".to_owned(), json!("2.0"));
@@ -496,9 +513,8 @@ impl<W: Write> Driver<W> {
         self.say(&message)
     }
 
-    fn say(&mut self, message: &Value) -> Result<(), String> {
-        let written = writeln!(self.out, "{message}").and_then(|()| self.out.flush());
-        written.map_err(|error| format!("the host does not listen: {error}"))
+    fn say(&self, message: &Value) -> Result<(), String> {
+        self.out.write(message.to_string())
     }
 }
 

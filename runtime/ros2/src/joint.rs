@@ -44,12 +44,36 @@ pub(crate) struct Part {
 
 impl Part {
     /// The whole path of a witness.
-    #[must_use]
-    pub(crate) fn of(witness: &Witness) -> Self {
+    ///
+    /// # Errors
+    ///
+    /// The waypoint whose numbers make no path.
+    pub(crate) fn of(witness: &Witness) -> Result<Self, String> {
+        if witness.path.is_empty() {
+            return Err("the path has no waypoint".to_owned());
+        }
+        let mut before = f64::NEG_INFINITY;
+        for (number, waypoint) in (1..).zip(&witness.path) {
+            let wrong = |what: &str| Err(format!("waypoint {number} of the path {what}"));
+            let mut numbers = waypoint.base.iter().chain(&waypoint.joints);
+            if waypoint.joints.len() != witness.joints.len() {
+                return wrong("has other joints than the path");
+            }
+            if !numbers.all(|number| number.is_finite()) {
+                return wrong("has a position that is no number");
+            }
+            if !(waypoint.at.is_finite() && waypoint.at >= before) {
+                return wrong("comes before the one before it");
+            }
+            if !(waypoint.ramp.is_finite() && waypoint.ramp >= 0.0) {
+                return wrong("has a ramp that is no time");
+            }
+            before = waypoint.at;
+        }
         let waypoints =
             witness.path.iter().map(|waypoint| (waypoint.base, waypoint.joints.clone())).collect();
         let pairs = witness.path.windows(2);
-        Self { waypoints, legs: pairs.map(|pair| [pair[1].at - pair[0].at, pair[1].ramp]).collect() }
+        Ok(Self { waypoints, legs: pairs.map(|pair| [pair[1].at - pair[0].at, pair[1].ramp]).collect() })
     }
 
     /// The same way from its end to its start.
@@ -250,7 +274,7 @@ mod tests {
 
     #[test]
     fn splines_through_the_points_are_the_path() {
-        let part = Part::of(&witness());
+        let part = Part::of(&witness()).unwrap();
         let axes = [Axis::Joint("lift", 9.0), Axis::Joint("wrist", 9.0), Axis::Joint("head", 0.7)];
         let names = ["l", "w", "h"].map(str::to_owned);
         let trajectory = part.trajectory(&names, &axes, &["lift", "wrist"], Planar::default()).unwrap();
@@ -268,15 +292,37 @@ mod tests {
     }
 
     #[test]
+    fn a_path_that_is_none_is_refused() {
+        let wrong = |change: &dyn Fn(&mut Witness)| {
+            let mut changed = witness();
+            change(&mut changed);
+            Part::of(&changed).unwrap_err()
+        };
+        assert_eq!(wrong(&|one| one.path.clear()), "the path has no waypoint");
+        let short = wrong(&|one| one.path[1].joints.truncate(1));
+        assert_eq!(short, "waypoint 2 of the path has other joints than the path");
+        assert_eq!(
+            wrong(&|one| one.path[2].at = 1.0),
+            "waypoint 3 of the path comes before the one before it"
+        );
+        assert_eq!(
+            wrong(&|one| one.path[1].ramp = -0.5),
+            "waypoint 2 of the path has a ramp that is no time"
+        );
+        let none = wrong(&|one| one.path[0].base[2] = f64::NAN);
+        assert_eq!(none, "waypoint 1 of the path has a position that is no number");
+    }
+
+    #[test]
     fn a_path_is_split_where_base_and_joints_take_turns() {
-        let part = Part::of(&witness());
+        let part = Part::of(&witness()).unwrap();
         let phases = part.phases().unwrap();
         assert_eq!(phases.iter().map(|(drives, _)| *drives).collect::<Vec<_>>(), [false, true]);
         let head = [Axis::Joint("head", 0.7)];
         assert_eq!(part.trajectory(&["h".to_owned()], &head, &["lift", "wrist"], Planar::default()), None);
         let mut both = witness();
         both.path[2].joints[0] = 0.0;
-        assert_eq!(Part::of(&both).phases(), None);
+        assert_eq!(Part::of(&both).unwrap().phases(), None);
     }
 
     #[test]
@@ -284,7 +330,7 @@ mod tests {
         let odom = Planar { x: 1.0, y: 0.0, yaw: std::f64::consts::FRAC_PI_2 };
         let axes = [Axis::Base(0), Axis::Base(1), Axis::Base(2)];
         let names = ["x", "y", "t"].map(str::to_owned);
-        let trajectory = Part::of(&witness()).trajectory(&names, &axes, &[], odom).unwrap();
+        let trajectory = Part::of(&witness()).unwrap().trajectory(&names, &axes, &[], odom).unwrap();
         let end = &trajectory.points.last().unwrap().positions;
         let expected = [0.5, 0.0, 0.3 - std::f64::consts::FRAC_PI_2];
         assert!(end.iter().zip(expected).all(|(is, wanted)| (is - wanted).abs() < 1e-12), "{end:?}");

@@ -124,7 +124,7 @@ fn drive(args: DriveArgs) -> Result<u8, String> {
     let card = check::read_card(&card, args.motet.or_else(|| on_path("motet")))?;
     let robot = robot::Robot::open(binding, layouts)?;
     let lines = lines::read_lines(BufReader::new(std::io::stdin()));
-    let out = std::io::stdout().lock();
+    let out = lines::Output::open(std::io::stdout());
     driver::Driver::new(robot, world::World::new(scene), card, out).serve(&lines)?;
     Ok(0)
 }

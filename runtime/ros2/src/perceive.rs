@@ -252,6 +252,7 @@ mod tests {
         frames.hear(
             &decode(&layouts(), "tf2_msgs/TFMessage", &bytes("tf2_msgs/TFMessage", &value)).unwrap(),
             false,
+            Instant::now(),
         );
         frames
     }

@@ -6,15 +6,24 @@ use motet_robots::clearance::{Clearance, ClearanceOverride};
 use motet_robots::scene::{Scene, write};
 use motet_runtime::PlannedMotion;
 use std::collections::BTreeMap;
+use std::io::Read as _;
 use std::path::PathBuf;
-use std::process::Command;
+use std::process::{Child, Command, Stdio};
+use std::sync::Weak;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, Instant};
 
 /// Limits of joints by their names in the card, in rad or m.
 pub(crate) type Limits = BTreeMap<String, (f64, f64)>;
 
 /// Error of a measured joint beyond its limit in rad or m.
 const NEAR: f64 = 0.02;
+/// Time limit for an answer of `motet feasible`.
+const ANSWERS: Duration = Duration::from_secs(30);
+/// Time between two looks at whether it has answered.
+const LOOKS: Duration = Duration::from_millis(5);
+/// Greatest size of its answer in bytes.
+const MAX_ANSWER: u64 = 16 * 1024 * 1024;
 
 /// What the card of the robot says, and the command that plans its paths.
 #[derive(Clone, Debug)]
@@ -80,12 +89,12 @@ impl Question {
         Some(Self { program, robot: card.name.clone(), scene, motion })
     }
 
-    /// Asks, and waits for the answer.
+    /// Asks, and waits for the answer, as long as somebody wants it.
     ///
     /// # Errors
     ///
     /// The reason that no motion exists, or why nobody could say.
-    pub(crate) fn ask(&self) -> Result<Witness, NoPath> {
+    pub(crate) fn ask(&self, wanted: &Weak<()>) -> Result<Witness, NoPath> {
         static NUMBER: AtomicU64 = AtomicU64::new(0);
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);
         let path = std::env::temp_dir().join(format!("motet-ros2-{}-{number}.json", std::process::id()));
@@ -93,13 +102,15 @@ impl Question {
         let asked = Command::new(&self.program)
             .args(["feasible", "--robot", &self.robot, "--for", &self.motion, "--format", "json", "--scene"])
             .arg(&path)
-            .output();
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .map_err(|error| format!("`{}` cannot be started: {error}", self.program.display()))
+            .and_then(|child| said(child, wanted));
         let _ = std::fs::remove_file(&path);
-        let output =
-            asked.map_err(|error| format!("`{}` cannot be started: {error}", self.program.display()))?;
-        let line = String::from_utf8_lossy(&output.stdout).lines().next().unwrap_or_default().to_owned();
+        let [line, said] = asked?;
         let answer: serde_json::Value = serde_json::from_str(&line).map_err(|_| {
-            let said = String::from_utf8_lossy(&output.stderr);
             format!("`motet feasible` has no answer: {}", said.lines().next().unwrap_or("it printed nothing"))
         })?;
         match answer.get("witness") {
@@ -116,6 +127,43 @@ impl Question {
             }
         }
     }
+}
+
+/// First line of the output and text of the errors of a process. It is ended if nobody wants them any more.
+///
+/// # Errors
+///
+/// It took too long, or nobody wants its answer.
+fn said(mut child: Child, wanted: &Weak<()>) -> Result<[String; 2], String> {
+    let read = |stream: Option<Box<dyn std::io::Read + Send>>| {
+        std::thread::spawn(move || {
+            let mut bytes = Vec::new();
+            // What was read before an error is the answer.
+            let _ = stream.map(|stream| stream.take(MAX_ANSWER).read_to_end(&mut bytes));
+            String::from_utf8_lossy(&bytes).into_owned()
+        })
+    };
+    let output = read(child.stdout.take().map(|stream| Box::new(stream) as _));
+    let errors = read(child.stderr.take().map(|stream| Box::new(stream) as _));
+    let begun = Instant::now();
+    let end = loop {
+        match child.try_wait() {
+            Ok(Some(_)) => break Ok(()),
+            Ok(None) if wanted.strong_count() == 0 => break Err("nobody wants the path any more".to_owned()),
+            Ok(None) if begun.elapsed() > ANSWERS => {
+                break Err(format!("`motet feasible` had no answer after {} s", ANSWERS.as_secs()));
+            }
+            Ok(None) => std::thread::sleep(LOOKS),
+            Err(error) => break Err(format!("`motet feasible`: {error}")),
+        }
+    };
+    if let Err(why) = end {
+        // It may have ended meanwhile.
+        let _ = child.kill().and_then(|()| child.wait());
+        return Err(why);
+    }
+    let [output, errors] = [output, errors].map(|thread| thread.join().unwrap_or_default());
+    Ok([output.lines().next().unwrap_or_default().to_owned(), errors])
 }
 
 /// Motion of a command as the language writes it.

@@ -8,7 +8,7 @@ use crate::layout::Layouts;
 use crate::observe::{Expression, Found};
 use crate::perceive::{CameraFeed, Feed, detections};
 use crate::service::{Client, Interface, Ticket};
-use crate::state::Body;
+use crate::state::{Body, Parts};
 use bytes::Bytes;
 use crossbeam_channel::{Receiver, Sender, bounded};
 use motet_host::remote::protocol::DetectedThing;
@@ -367,7 +367,7 @@ impl Robot {
             }
             Channel::Frames(is_static) => {
                 let message = read("tf2_msgs/TFMessage")?;
-                self.body.frames.hear(&message, *is_static);
+                self.body.frames.hear(&message, *is_static, received.at);
             }
             Channel::Kept(topic) => {
                 let type_name = self.type_of(topic);
@@ -443,7 +443,7 @@ impl Robot {
     fn look_for_servers(&mut self) {
         self.looked = Some(Instant::now());
         self.missing = self.actions.iter().map(|action| action.missing(&self.dds)).collect();
-        let topics = self.actions.iter().flat_map(ActionClient::topics);
+        let topics = self.actions.iter().map(ActionClient::status_topic);
         let joints = dds_topic("rt", &self.binding.joints.topic, "");
         let topics: Vec<String> = topics.chain([joints]).collect();
         self.peers.extend(self.dds.peers(&topics));
@@ -542,11 +542,29 @@ impl Robot {
         self.cameras[at].look(&cameras[at], &self.binding, &self.layouts, &self.body.frames)
     }
 
-    /// Joints of all controllers by their names in ROS, and `true` if the robot drives.
+    /// Joints of all controllers, and the base if the robot drives.
     #[must_use]
-    pub(crate) fn parts(&self) -> (Vec<String>, bool) {
+    pub(crate) fn parts(&self) -> Parts {
         let joints = self.binding.controllers.iter().flat_map(|controller| controller.joints.iter().cloned());
-        (joints.collect(), self.binding.base.odometry.is_some())
+        Parts { joints: joints.collect(), drives: self.binding.base.odometry.is_some(), all: false }
+    }
+
+    /// Cancels all goals of all actions, whoever sent them.
+    pub(crate) fn cancel_all(&mut self) {
+        self.actions.iter_mut().for_each(|action| action.cancel_all(&self.layouts));
+    }
+
+    /// True if everything stands still.
+    #[must_use]
+    pub(crate) fn is_still(&self) -> bool {
+        self.body.is_still(&Parts { all: true, ..Parts::default() }, &self.binding)
+    }
+
+    /// True if everything stands still, and no action server that is there says that it carries a goal out.
+    #[must_use]
+    pub(crate) fn is_at_rest(&self) -> bool {
+        let idle = |(action, missing): (&ActionClient, &Vec<String>)| !missing.is_empty() || action.is_idle();
+        self.is_still() && self.actions.iter().zip(&self.missing).all(idle)
     }
 
     /// Prints a problem once.

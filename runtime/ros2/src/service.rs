@@ -21,6 +21,9 @@ pub(crate) enum Middleware {
 /// Bytes of the header of Cyclone DDS: the client, and the number of the request.
 const HEADER: usize = 16;
 
+/// Greatest number of calls that wait for a response.
+const MAX_OPEN: usize = 1_000;
+
 /// Number of a call of one client.
 pub(crate) type Ticket = i64;
 
@@ -86,6 +89,10 @@ impl Client {
             Middleware::Cyclonedds => header(self.own, self.calls).into_iter().chain(message).collect(),
         };
         let identity = self.writer.write(bytes, None)?;
+        // Some servers never answer: the oldest calls are given up.
+        if self.open.len() >= MAX_OPEN {
+            self.open.remove(0);
+        }
         self.open.push((self.calls, identity));
         Ok(self.calls)
     }
@@ -119,7 +126,7 @@ impl Client {
             }
         };
         let Some(at) = at else { return Ok(None) };
-        let (ticket, _) = self.open.swap_remove(at);
+        let (ticket, _) = self.open.remove(at);
         let start = if self.middleware == Middleware::Cyclonedds { HEADER } else { 0 };
         let bytes = received.bytes.get(start..).unwrap_or_default();
         Ok(Some((ticket, decode(layouts, &self.response, bytes)?)))

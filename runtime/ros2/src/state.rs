@@ -3,7 +3,7 @@
 use crate::bind::{Binding, Standstill};
 use crate::cdr::Message;
 use crate::tf::{Frames, Planar};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::time::{Duration, Instant};
 
 /// Age from which a state of the joints or of the base counts no more.
@@ -39,13 +39,23 @@ struct BaseState {
     still: Option<Instant>,
 }
 
-/// Parts of the robot whose standstill is asked for.
-#[derive(Clone, PartialEq, Debug)]
-pub(crate) enum Parts {
-    /// Every joint, and the base.
-    All,
-    /// Joints by their names in ROS, and the base if `true`.
-    Some(Vec<String>, bool),
+/// Parts of the robot that something moves.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub(crate) struct Parts {
+    /// Joints by their names in ROS.
+    pub(crate) joints: BTreeSet<String>,
+    /// The base.
+    pub(crate) drives: bool,
+    /// Whatever is heard of: nobody knows which parts.
+    pub(crate) all: bool,
+}
+
+impl Parts {
+    /// True if nothing moves.
+    #[must_use]
+    pub(crate) fn is_empty(&self) -> bool {
+        self.joints.is_empty() && !self.drives && !self.all
+    }
 }
 
 impl Body {
@@ -97,40 +107,43 @@ impl Body {
         self.joints.get(joint).filter(|state| state.at.elapsed() < FRESH).map(|state| state.position)
     }
 
-    /// Positions of all joints by their names in ROS.
+    /// Positions of all joints by their names in ROS, if they are fresh.
     #[must_use]
     pub(crate) fn positions(&self) -> BTreeMap<String, f64> {
-        self.joints.iter().map(|(name, state)| (name.clone(), state.position)).collect()
+        let fresh = self.joints.iter().filter(|(_, state)| state.at.elapsed() < FRESH);
+        fresh.map(|(name, state)| (name.clone(), state.position)).collect()
     }
 
     /// Greatest speed of the joints of some parts, for a report.
     #[must_use]
     pub(crate) fn fastest(&self, parts: &Parts) -> Option<(&str, f64)> {
-        let asked = self.joints.iter().filter(|(name, _)| match parts {
-            Parts::All => true,
-            Parts::Some(joints, _) => joints.contains(name),
-        });
+        let asked = self.joints.iter().filter(|(name, _)| parts.all || parts.joints.contains(*name));
         let speeds = asked.map(|(name, state)| (name.as_str(), state.speed.abs()));
         speeds.max_by(|one, other| one.1.total_cmp(&other.1))
     }
 
-    /// True if all joints and the base, of some parts, have been slow for long enough, and are known to be.
+    /// True if the joints and the base of some parts have been slow for long enough, and are known to be.
+    ///
+    /// Of all parts, those that the binding names must be known; a joint that nobody reports any more is none.
     #[must_use]
     pub(crate) fn is_still(&self, parts: &Parts, binding: &Binding) -> bool {
         let secs = Duration::from_secs_f64(binding.standstill.secs.clamp(0.0, 10.0));
         let is_since = |still: Option<Instant>, at: Instant| {
             at.elapsed() < FRESH && still.is_some_and(|since| since.elapsed() >= secs)
         };
-        let is_joint = |state: &JointState| is_since(state.still, state.at);
+        let is_joint =
+            |joint: &String| self.joints.get(joint).is_some_and(|state| is_since(state.still, state.at));
         let is_base =
             || binding.base.odometry.is_none() || self.base.is_some_and(|base| is_since(base.still, base.at));
-        match parts {
-            Parts::All => !self.joints.is_empty() && self.joints.values().all(is_joint) && is_base(),
-            Parts::Some(joints, drives) => {
-                joints.iter().all(|joint| self.joints.get(joint).is_some_and(is_joint))
-                    && (!drives || is_base())
-            }
+        if !parts.all {
+            return parts.joints.iter().all(is_joint) && (!parts.drives || is_base());
         }
+        let heard = self.joints.iter().filter(|(_, state)| state.at.elapsed() < FRESH);
+        let heard: Vec<&String> = heard.map(|(joint, _)| joint).collect();
+        !heard.is_empty()
+            && heard.into_iter().all(is_joint)
+            && binding.joints_that_move().all(is_joint)
+            && is_base()
     }
 
     /// Pose of the base in the frame of the map: by the frames, or by the odometry where they have no map.
@@ -140,8 +153,10 @@ impl Body {
     /// Why nobody knows it.
     pub(crate) fn base(&self, binding: &Binding) -> Result<Planar, String> {
         let names = &binding.frames;
+        // The newest pose of the base, with the frames above it at its time, none of which may be silent.
         let newest = self.frames.newest(&names.base);
-        let told = self.frames.look_up(&names.map, &names.base, newest, names.age_secs);
+        let fresh = self.frames.look_up(&names.map, &names.base, None, names.age_secs);
+        let told = fresh.and_then(|_| self.frames.look_up(&names.map, &names.base, newest, names.age_secs));
         match (told, self.base) {
             (Ok(transform), _) if newest.is_some() => Ok(transform.planar()),
             (_, Some(base)) if binding.base.localization.is_none() && base.at.elapsed() < FRESH => {
@@ -185,7 +200,8 @@ mod tests {
     #[test]
     fn standstill_takes_time_and_fresh_states() {
         let (mut body, binding, now) = (Body::default(), binding(), Instant::now());
-        let parts = Parts::Some(vec!["a".to_owned()], false);
+        let of = |joint: &str| Parts { joints: [joint.to_owned()].into(), ..Parts::default() };
+        let (parts, all) = (of("a"), Parts { all: true, ..Parts::default() });
         assert!(!body.is_still(&parts, &binding), "nothing is known");
         let ago = |millis| now.checked_sub(Duration::from_millis(millis)).unwrap();
         heard(&mut body, Some(0.5), 1.0, ago(400));
@@ -194,9 +210,17 @@ mod tests {
         heard(&mut body, Some(0.5), 1.0, ago(400));
         heard(&mut body, Some(0.0), 1.0, ago(300));
         heard(&mut body, Some(0.0), 1.0, now);
-        assert!(body.is_still(&parts, &binding));
-        let other = Parts::Some(vec!["b".to_owned()], false);
-        assert!(!body.is_still(&other, &binding), "a joint that nobody reports");
+        assert!(body.is_still(&parts, &binding) && body.is_still(&all, &binding));
+        assert!(!body.is_still(&of("b"), &binding), "a joint that nobody reports");
+        let arm = "[joints]\ntopic = \"j\"\n[[controllers]]\naction = \"arm\"\njoints = [\"a\", \"b\"]";
+        assert!(
+            !body.is_still(&all, &Binding::parse(arm, "own").unwrap()),
+            "a joint that moves and is silent"
+        );
+        body.joints
+            .insert("old".to_owned(), JointState { position: 0.0, speed: 1.0, at: ago(900), still: None });
+        assert!(body.is_still(&all, &binding), "nobody reports the joint any more");
+        assert_eq!(body.positions().len(), 1);
     }
 
     #[test]
@@ -205,7 +229,8 @@ mod tests {
         let ago = |millis| now.checked_sub(Duration::from_millis(millis)).unwrap();
         heard(&mut body, None, 1.0, ago(400));
         heard(&mut body, None, 1.2, ago(200));
-        assert!(body.fastest(&Parts::All).unwrap().1 > 0.9);
-        assert!(!body.is_still(&Parts::All, &binding()));
+        let all = Parts { all: true, ..Parts::default() };
+        assert!(body.fastest(&all).unwrap().1 > 0.9);
+        assert!(!body.is_still(&all, &binding()));
     }
 }

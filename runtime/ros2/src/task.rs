@@ -1,5 +1,6 @@
 //! A goal of the host as a row of steps: trajectories, navigations, the hand, and calls.
 
+mod calls;
 mod move_group;
 mod moving;
 mod stopping;
@@ -7,7 +8,7 @@ mod stopping;
 pub(crate) use stopping::stand_still;
 
 use crate::action::{End, News, Uuid};
-use crate::bind::{Call, CallKind, Deed, Opening, Step};
+use crate::bind::{Deed, Step};
 use crate::cdr::Message;
 use crate::joint::Part;
 use crate::observe::Found;
@@ -15,16 +16,17 @@ use crate::plan::{Card, NoPath};
 use crate::robot::{Heard, Robot};
 use crate::service::Ticket;
 use crate::state::Parts;
-use crate::template::{fill, of_argument, of_pose};
-use crate::tf::Transform;
 use crate::world::World;
-use crossbeam_channel::Receiver;
+use crossbeam_channel::{Receiver, TryRecvError};
 use motet_graph::{Value as Argument, Witness};
 use motet_runtime::{Command, FailureReport, Outcome};
-use serde_json::{Value, json};
+use serde_json::Value;
 use std::collections::VecDeque;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
+
+/// Time for the robot to stand still once all servers have succeeded.
+const SETTLES: Duration = Duration::from_secs(5);
 
 /// What a task needs besides the robot.
 pub(crate) struct Surroundings<'a> {
@@ -60,9 +62,10 @@ enum Phase {
     Discovering {
         since: Instant,
     },
-    /// Another thread looks for a path.
+    /// Another thread looks for a path, as long as it is wanted.
     Planning {
         answer: Receiver<Box<Result<Witness, NoPath>>>,
+        _wanted: Arc<()>,
     },
     Acting,
     Calling {
@@ -83,9 +86,11 @@ enum Phase {
     },
 }
 
-/// Why a task is brought to an end.
+/// Why a task is brought to a standstill.
 #[derive(Clone, PartialEq, Debug)]
 enum Ending {
+    /// It goes on later.
+    Hold,
     Cancel,
     Fail(FailureReport),
     SafeStop,
@@ -95,7 +100,9 @@ enum Ending {
 struct Stopping {
     ending: Ending,
     since: Instant,
+    /// Time of the last trajectories that stand still, with the actions that got one.
     stopped: Instant,
+    replaced: Vec<usize>,
     is_told: bool,
 }
 
@@ -114,20 +121,27 @@ pub(crate) struct Task {
     steps: VecDeque<Step>,
     moves: VecDeque<Move>,
     running: Vec<Running>,
+    /// Goals of action servers whose end nobody knows.
+    lost: Vec<(usize, Uuid)>,
     phase: Phase,
     /// Path of the last way there, with the names of its joints.
     path: Option<(Part, Vec<String>)>,
     /// Positions of the joints before MoveGroup moved them, for the way back.
     before: Option<Vec<(String, f64)>>,
-    width: f64,
-    parts: (Vec<String>, bool),
+    /// Opening of the hand that the grasp of the path asks for, in m.
+    width: Option<f64>,
+    /// Parts of the robot that the task has used.
+    parts: Parts,
     result: Option<Argument>,
     detected: Vec<String>,
     /// Move that runs, for a hold.
     current: Option<Move>,
+    /// Number of paths of the step that were looked for because the robot was elsewhere.
+    detours: u32,
     held: bool,
-    holding: bool,
     stopping: Option<Stopping>,
+    /// Everything has succeeded since, and the robot is to stand still.
+    settling: Option<Instant>,
     /// Texts for people.
     pub(crate) feedback: Vec<String>,
 }
@@ -142,24 +156,27 @@ impl Task {
             steps: steps.into(),
             moves: VecDeque::new(),
             running: Vec::new(),
+            lost: Vec::new(),
             phase: Phase::Next,
             path: None,
             before: None,
-            width: 0.0,
-            parts: (Vec::new(), false),
+            width: None,
+            parts: Parts::default(),
             result: None,
             detected: Vec::new(),
             current: None,
+            detours: 0,
             held: false,
-            holding: false,
             stopping: None,
+            settling: None,
             feedback: Vec::new(),
         }
     }
 
-    /// Parts of the robot that the task has used.
-    fn parts(&self) -> Parts {
-        Parts::Some(self.parts.0.clone(), self.parts.1)
+    /// True if it is being brought to a standstill.
+    #[must_use]
+    pub(crate) fn is_stopping(&self) -> bool {
+        self.stopping.is_some()
     }
 
     /// Arguments of the command by name.
@@ -194,22 +211,41 @@ impl Task {
         self.stop(around, Ending::SafeStop);
     }
 
+    /// Brings the task to a standstill. A stop that has begun goes on, with an ending that asks for more.
     fn stop(&mut self, around: &mut Surroundings<'_>, ending: Ending) {
-        let is_safe_stop = ending == Ending::SafeStop;
-        if let Some(stopping) = &mut self.stopping {
-            if is_safe_stop {
-                (stopping.ending, stopping.since) = (ending, Instant::now());
+        let (is_hold, is_safe_stop) = (ending == Ending::Hold, ending == Ending::SafeStop);
+        match &mut self.stopping {
+            Some(stopping) => {
+                let asks_more = match stopping.ending {
+                    Ending::Hold => !is_hold,
+                    Ending::Cancel | Ending::Fail(_) => is_safe_stop,
+                    Ending::SafeStop => false,
+                };
+                if !asks_more {
+                    return;
+                }
+                stopping.ending = ending;
             }
-            return;
+            None => {
+                for running in &self.running {
+                    around.robot.actions[running.action].cancel(&around.robot.layouts, running.id);
+                }
+                let now = Instant::now();
+                self.stopping =
+                    Some(Stopping { ending, since: now, stopped: now, replaced: Vec::new(), is_told: false });
+            }
         }
-        for running in &self.running {
-            around.robot.actions[running.action].cancel(&around.robot.layouts, running.id);
-        }
-        if is_safe_stop && (self.parts.1 || !around.robot.binding.stop.is_empty()) {
+        if is_safe_stop && (self.parts.drives || self.parts.all || !around.robot.binding.stop.is_empty()) {
             around.robot.send_stops();
         }
-        let now = Instant::now();
-        self.stopping = Some(Stopping { ending, since: now, stopped: now, is_told: false });
+        if is_hold {
+            return;
+        }
+        if let Phase::Calling { service, ticket, .. } = self.phase {
+            around.robot.services[service].forget(ticket);
+        }
+        self.phase = Phase::Next;
+        self.current = None;
         self.steps.truncate(1);
         self.moves.clear();
     }
@@ -217,11 +253,12 @@ impl Task {
     /// Keeps still until [`Self::proceed`].
     pub(crate) fn hold(&mut self, around: &mut Surroundings<'_>) {
         self.held = true;
-        if self.current.is_some() && !self.holding {
-            self.holding = true;
-            for running in &self.running {
-                around.robot.actions[running.action].cancel(&around.robot.layouts, running.id);
-            }
+        if matches!(self.phase, Phase::Discovering { .. }) {
+            // Nothing was sent yet; servers are looked for anew afterwards.
+            self.phase = Phase::Next;
+        }
+        if !self.running.is_empty() {
+            self.stop(around, Ending::Hold);
         }
     }
 
@@ -270,7 +307,10 @@ impl Task {
             return;
         };
         let running = self.running.swap_remove(at);
-        if self.stopping.is_some() || self.holding {
+        if matches!(end, End::Lost(_)) {
+            self.lost.push((action, id));
+        }
+        if self.stopping.is_some() {
             return;
         }
         let name = around.robot.actions[action].name.clone();
@@ -306,17 +346,26 @@ impl Task {
 
     fn step_done(&mut self) {
         self.steps.pop_front();
-        self.phase = Phase::Next;
+        (self.phase, self.detours) = (Phase::Next, 0);
+    }
+
+    /// True once the parts that the task has moved stand still: a server that says that it has succeeded is
+    /// no reason to say that the robot does.
+    fn stands(&mut self, around: &mut Surroundings<'_>) -> bool {
+        // What a call moves nobody knows, and other tasks may move the rest.
+        let known = Parts { all: false, ..self.parts.clone() };
+        let is_still = around.robot.body.is_still(&known, &around.robot.binding);
+        let since = *self.settling.get_or_insert_with(Instant::now);
+        if !is_still && since.elapsed() > SETTLES {
+            self.fail(around, "the servers have succeeded, and the robot does not stand still".to_owned());
+        }
+        is_still
     }
 
     /// Goes on as far as possible; the end of the task, if it has come.
     pub(crate) fn advance(&mut self, around: &mut Surroundings<'_>) -> Option<Finish> {
         if self.stopping.is_some() {
             return self.advance_stop(around);
-        }
-        if self.holding {
-            self.advance_hold(around);
-            return None;
         }
         for _ in 0..64 {
             if self.stopping.is_some() {
@@ -325,8 +374,10 @@ impl Task {
             let is_blocked = match &self.phase {
                 Phase::Next if self.held => true,
                 Phase::Next if self.moves.is_empty() && self.steps.is_empty() => {
-                    let outcome = Outcome::Success(self.result.clone());
-                    return Some(Finish::Ended(outcome));
+                    if self.stands(around) {
+                        return Some(Finish::Ended(Outcome::Success(self.result.clone())));
+                    }
+                    self.stopping.is_none()
                 }
                 Phase::Next | Phase::Discovering { .. } => !self.begin(around),
                 _ => !self.is_over(around),
@@ -382,8 +433,14 @@ impl Task {
     fn is_over(&mut self, around: &mut Surroundings<'_>) -> bool {
         let now = Instant::now();
         match &self.phase {
-            Phase::Planning { answer } => {
-                let Ok(answer) = answer.try_recv() else { return false };
+            Phase::Planning { answer, .. } => {
+                let answer = match answer.try_recv() {
+                    Ok(answer) => answer,
+                    Err(TryRecvError::Empty) => return false,
+                    Err(TryRecvError::Disconnected) => {
+                        Box::new(Err("the search for a path has broken off".to_owned().into()))
+                    }
+                };
                 let looks = self.steps.front().is_some_and(|step| step.deed == Deed::Look);
                 match *answer {
                     Ok(witness) => self.take_path(around, &witness),
@@ -400,7 +457,7 @@ impl Task {
                     return true;
                 }
                 // A robot of which nothing is heard cannot be said to move as it should.
-                let silent = unheard(around.robot).filter(|_| !self.parts.0.is_empty() || self.parts.1);
+                let silent = unheard(around.robot).filter(|_| !self.parts.is_empty());
                 if let Some(silent) = silent {
                     self.fail(around, silent);
                     return true;
@@ -448,135 +505,6 @@ impl Task {
             }
             Phase::Next | Phase::Discovering { .. } => true,
         }
-    }
-
-    fn find_detected(&mut self, around: &mut Surroundings<'_>, is_late: bool) -> bool {
-        let what = self.words().into_iter().next().unwrap_or_default();
-        let wanted = around.world.matches(&what);
-        let mut found: Vec<String> = wanted.into_iter().filter(|id| self.detected.contains(id)).collect();
-        found.sort();
-        let ambiguous = self.fails.iter().any(|kind| kind == "ambiguous");
-        match found.as_slice() {
-            [] if is_late => {
-                let failure = FailureReport {
-                    kind: "not_found".into(),
-                    text: Some(format!("no detection is called {what}").into()),
-                };
-                self.stop(around, Ending::Fail(failure));
-                true
-            }
-            [] => false,
-            [_, _, ..] if ambiguous => {
-                let text = format!("{} detections are called {what}", found.len());
-                let failure = FailureReport { kind: "ambiguous".into(), text: Some(text.into()) };
-                self.stop(around, Ending::Fail(failure));
-                true
-            }
-            [id, ..] => {
-                self.result = Some(Argument::Entity(id.as_str().into()));
-                self.step_done();
-                true
-            }
-        }
-    }
-
-    // Hand and calls.
-
-    fn begin_gripper(&mut self, around: &mut Surroundings<'_>, opening: Opening) -> bool {
-        let Some(gripper) = around.robot.binding.gripper.clone() else { return true };
-        let Some(action) = around.robot.action_at(&gripper.action) else { return true };
-        if !self.are_there(around, &[action]) {
-            return self.stopping.is_some();
-        }
-        let template = match opening {
-            Opening::Open => &gripper.open,
-            Opening::Close => &gripper.close,
-            Opening::Width => gripper.width.as_ref().unwrap_or(&gripper.open),
-        };
-        let width = gripper.offset + gripper.scale * self.width;
-        let named =
-            |name: &str| if name == "width" { Ok(json!(width)) } else { Err(format!("no value `{name}`")) };
-        match fill(template, &named) {
-            Ok(goal) => self.send(around, vec![(action, goal, gripper.timeout_secs)], true),
-            Err(why) => self.fail(around, why),
-        }
-        self.stopping.is_some()
-    }
-
-    fn begin_call(&mut self, around: &mut Surroundings<'_>, call: &Call) -> bool {
-        let message = fill(&call.message, &|name| self.named(around, name));
-        let message = match message {
-            Ok(message) => message,
-            Err(why) => {
-                self.fail(around, why);
-                return true;
-            }
-        };
-        match call.kind {
-            CallKind::Topic => {
-                match around.robot.publish(&call.name, &message) {
-                    Ok(()) => self.step_done(),
-                    Err(why) => self.fail(around, why),
-                }
-                true
-            }
-            CallKind::Service => {
-                let Some(service) = around.robot.service_at(&call.name) else { return true };
-                match around.robot.services[service].call(&around.robot.layouts, &message) {
-                    Ok(ticket) => {
-                        let until =
-                            Instant::now() + Duration::from_secs_f64(call.timeout_secs.clamp(0.0, 3600.0));
-                        self.phase = Phase::Calling { service, ticket, until };
-                        false
-                    }
-                    Err(why) => {
-                        self.fail(around, why);
-                        true
-                    }
-                }
-            }
-            CallKind::Action => {
-                let Some(action) = around.robot.action_at(&call.name) else { return true };
-                if !self.are_there(around, &[action]) {
-                    return self.stopping.is_some();
-                }
-                self.send(around, vec![(action, message, call.timeout_secs)], false);
-                self.stopping.is_some()
-            }
-        }
-    }
-
-    /// Value in a message: an argument, `NAME.pose` of an entity, the `goal` of the base, or a pose
-    /// `NAME in FRAME`.
-    fn named(&self, around: &Surroundings<'_>, name: &str) -> Result<Value, String> {
-        let (name, frame) =
-            name.split_once(" in ").map_or((name, None), |(name, frame)| (name, Some(frame.trim())));
-        let (name, field) = name.split_once('.').map_or((name, None), |(name, field)| (name, Some(field)));
-        let pose = if name == "goal" {
-            let (part, _) = self.path.as_ref().ok_or("the command has no path yet")?;
-            let [x, y, yaw] = part.waypoints.last().map_or([0.0; 3], |(base, _)| *base);
-            Some(Transform::from_rpy([x, y, 0.0], [0.0, 0.0, yaw]))
-        } else {
-            let argument = self.command.args.iter().find(|(own, _)| own == name);
-            let (_, value) = argument.ok_or_else(|| format!("the command has no argument `{name}`"))?;
-            match (value, field) {
-                (Argument::Entity(id), Some("pose")) => {
-                    Some(around.world.pose(id).ok_or_else(|| format!("nobody knows where `{id}` is"))?)
-                }
-                (Argument::Pose(pose), None) => {
-                    Some(Transform { xyz: pose.xyz, quaternion: pose.quaternion })
-                }
-                (value, None) => return Ok(of_argument(value)),
-                (_, Some(field)) => return Err(format!("`{name}` has no `{field}`")),
-            }
-        };
-        let mut pose = pose.ok_or_else(|| format!("`{name}` is no pose"))?;
-        if let Some(frame) = frame {
-            let frames = &around.robot.binding.frames;
-            let to_map = around.robot.body.frames.look_up(frame, &frames.map, None, frames.age_secs)?;
-            pose = to_map.then(pose);
-        }
-        Ok(of_pose(pose.xyz, pose.quaternion))
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::cdr::Message;
 use std::collections::{HashMap, VecDeque};
+use std::time::Instant;
 
 /// Transforms of each frame that are kept.
 const KEPT: usize = 256;
@@ -128,6 +129,8 @@ fn rotate(quaternion: [f64; 4], [x, y, z]: [f64; 3]) -> [f64; 3] {
 struct Frame {
     parent: String,
     is_static: bool,
+    /// Arrival of the last transform.
+    heard: Instant,
     /// Transforms with their times in s, the oldest first.
     history: VecDeque<(f64, Transform)>,
 }
@@ -139,8 +142,8 @@ pub(crate) struct Frames {
 }
 
 impl Frames {
-    /// Takes in a `tf2_msgs/TFMessage`. Transforms that are none are left out.
-    pub(crate) fn hear(&mut self, message: &Message, is_static: bool) {
+    /// Takes in a `tf2_msgs/TFMessage` that came at `now`. Transforms that are none are left out.
+    pub(crate) fn hear(&mut self, message: &Message, is_static: bool, now: Instant) {
         for told in message.list("transforms") {
             let child = told.text("child_frame_id").trim_start_matches('/').to_owned();
             let parent = told.text("header.frame_id").trim_start_matches('/').to_owned();
@@ -155,13 +158,14 @@ impl Frames {
             let frame = self.frames.entry(child).or_insert_with(|| Frame {
                 parent: parent.clone(),
                 is_static,
+                heard: now,
                 history: VecDeque::new(),
             });
             if frame.parent != parent {
                 frame.parent = parent;
                 frame.history.clear();
             }
-            frame.is_static = is_static;
+            (frame.is_static, frame.heard) = (is_static, now);
             // A clock that goes back is another one, such as that of a simulation that was started anew.
             if is_static || frame.history.back().is_some_and(|(last, _)| *last > at + 1.0) {
                 frame.history.clear();
@@ -174,11 +178,11 @@ impl Frames {
         }
     }
 
-    /// Transform of a frame as seen from another one at a time in s, or newest without a time.
+    /// Transform of a frame as seen from another one at a time in s; without a time the newest, as seen now.
     ///
     /// # Errors
     ///
-    /// The frame that is unknown, or whose transforms end more than `age` seconds before that time.
+    /// The frame that is unknown, or whose last transform is more than `age` seconds older than that time.
     pub(crate) fn look_up(
         &self,
         target: &str,
@@ -222,7 +226,16 @@ impl Frame {
         let Some((last, newest)) = self.history.back().copied() else {
             return Err(format!("no transform of `{name}` yet"));
         };
-        let Some(time) = time.filter(|_| !self.is_static) else { return Ok(newest) };
+        if self.is_static {
+            return Ok(newest);
+        }
+        let Some(time) = time else {
+            let silent = self.heard.elapsed().as_secs_f64();
+            if silent > age {
+                return Err(format!("the last transform of `{name}` came {silent:.2} s ago"));
+            }
+            return Ok(newest);
+        };
         if time >= last {
             let late = time - last;
             return if late <= age {
@@ -259,7 +272,7 @@ mod tests {
             "child_frame_id": child, "transform": {"translation": {"x": x},
             "rotation": {"z": (yaw / 2.0).sin(), "w": (yaw / 2.0).cos()}}}]});
         let bytes = encode(&layouts, "tf2_msgs/TFMessage", &value).unwrap();
-        frames.hear(&decode(&layouts, "tf2_msgs/TFMessage", &bytes).unwrap(), is_static);
+        frames.hear(&decode(&layouts, "tf2_msgs/TFMessage", &bytes).unwrap(), is_static, Instant::now());
     }
 
     #[test]
@@ -289,6 +302,9 @@ mod tests {
         let wrong = |target, time| frames.look_up(target, "base", time, 0.5).unwrap_err();
         assert_eq!(wrong("odom", Some(11.0)), "the last transform of `base` is 1.00 s old");
         assert_eq!(wrong("map", None), "no transform leads from `map` to `base`");
+        frames.frames.get_mut("base").unwrap().heard -= std::time::Duration::from_secs(3);
+        let silent = frames.look_up("odom", "base", None, 0.5).unwrap_err();
+        assert_eq!(silent, "the last transform of `base` came 3.00 s ago");
         let mut circle = Frames::default();
         told(&mut circle, "a", "b", 1, 0.0, 0.0, false);
         told(&mut circle, "b", "a", 1, 0.0, 0.0, false);

@@ -3,6 +3,7 @@
 import json
 import os
 import queue
+import select
 import signal
 import subprocess
 import sys
@@ -55,6 +56,7 @@ class Driver:
         command = [DRIVER, "drive", str(HERE / binding), "--robot", "hsr", "--scene", "kitchen", "--motet", motet]
         self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         self.lines, self.number, self.reports, self.goals = queue.Queue(), 0, [], 0
+        self.is_deaf = self.closes = False
         threading.Thread(target=self.read, daemon=True).start()
         self.alive, self.moved = True, {"joints": {}}
         threading.Thread(target=self.beat, daemon=True).start()
@@ -65,9 +67,23 @@ class Driver:
                                      primitives=[{"name": name, "fails": kinds} for name, kinds in fails.items()])
 
     def read(self):
-        for line in self.process.stdout:
-            self.lines.put(json.loads(line))
+        output, bytes_of = self.process.stdout.fileno(), b""
+        while not self.is_deaf:
+            if not select.select([output], [], [], 0.05)[0]:
+                continue
+            read = os.read(output, 65536)
+            if not read:
+                break
+            *lines, bytes_of = (bytes_of + read).split(b"\n")
+            for line in lines:
+                self.lines.put(json.loads(line))
+        if self.closes:
+            self.process.stdout.close()
         self.lines.put(None)
+
+    def deaf(self, closes):
+        """Reads no more, and may close the output."""
+        self.closes, self.is_deaf = closes, True
 
     def beat(self):
         while self.alive:

@@ -4,7 +4,8 @@ odometry, tf, pictures and detections, in front of a body without physics or of 
 Faults of all its action servers: `reject`, `ignore-cancel` (goes on after a cancel that it promised to heed), `deaf`
 (a new trajectory does not stop the old one either), `die` (ends in the middle of a motion), `silent` (never answers
 a goal), `mute` (and never tells its state), `late` (answers after 3 s), `twice` (answers everything twice, the second
-time otherwise), `other-goal` (answers calls that nobody made). MoveGroup finds no plan with `no-plan`.
+time otherwise), `other-goal` (answers calls that nobody made), `early` (says that a trajectory has succeeded in the middle of it).
+MoveGroup finds no plan with `no-plan`, and a navigation ends 0.2 m beside its goal with `beside`.
 """
 
 import argparse
@@ -167,7 +168,7 @@ class Physics:
 class Robot:
     """Topics and action servers of a robot that a binding names."""
 
-    def __init__(self, binding, body, faults, domain, log, sigma=0.0):
+    def __init__(self, binding, body, faults, domain, log, sigma=0.0, turns=0):
         ros = binding.get("ros", {})
         self.types = Types(ros.get("distribution", "jazzy"))
         self.node, self.body, self.faults, self.log = Node(self.types, domain), body, set(faults), log
@@ -182,6 +183,9 @@ class Robot:
         if "localization" in base:
             self.localization = publish(base["localization"], "geometry_msgs/PoseWithCovarianceStamped")
         self.sigma = sigma
+        # Axes of the base with how often they have gone round, which only joint states tell.
+        axes = [controller["base"] for controller in binding.get("controllers", []) if "base" in controller]
+        self.axis, self.turns = (axes[0][2] if axes else None), turns
         self.detections = publish(binding["detections"]["topic"], "vision_msgs/Detection3DArray") if "detections" in binding else None
         self.camera = None
         if binding.get("cameras"):
@@ -253,9 +257,13 @@ class Robot:
             goal, points, own, is_base, begun = running
             places, speeds = spline(points, own, now - begun)
             if is_base:
-                self.body.drive([places[name] for name in own], [speeds[name] for name in own])
+                x, y, yaw = [places[name] for name in own]
+                self.body.drive([x, y, yaw - 2.0 * math.pi * self.turns], [speeds[name] for name in own])
             else:
                 self.body.aim(places, speeds)
+            if "early" in self.faults and 2.0 * (now - begun) > points[-1][0] and goal.status < SUCCEEDED:
+                self.note("early")
+                next(server for server in self.servers if server.name == key).finish(goal)
             if "die" in self.faults and now - begun > 0.4:
                 os.kill(os.getpid(), signal.SIGKILL)
             if now - begun >= points[-1][0] + self.settles(places, own, is_base, now - begun - points[-1][0]):
@@ -277,7 +285,8 @@ class Robot:
         def begin(goal):
             pose = goal.goal.pose.pose
             yaw = 2.0 * math.atan2(pose.orientation.z, pose.orientation.w)
-            end, start = [pose.position.x, pose.position.y, yaw], list(self.body.base)
+            beside = 0.2 if "beside" in self.faults else 0.0
+            end, start = [pose.position.x, pose.position.y + beside, yaw], list(self.body.base)
             secs = max(math.dist(end[:2], start[:2]) / 0.3, 0.5)
             self.note("navigate", id=list(goal.id), goal=end)
             self.trajectories[key] = (goal, [(0.0, start, [0.0] * 3), (secs, end, [0.0] * 3)], ["x", "y", "yaw"], True, time.monotonic())
@@ -367,7 +376,10 @@ class Robot:
         header = {"stamp": stamp(), "frame_id": "odom"}
         if self.is_due("joints", 0.01):
             names = list(body.joints)
-            joints, speeds = body.joints, body.speeds
+            joints, speeds = dict(body.joints), body.speeds
+            if self.axis and self.turns:
+                names.append(self.axis)
+                joints[self.axis] = body.base[2] + 2.0 * math.pi * self.turns
             self.joint_states.write(zero("sensor_msgs/JointState", header=header, name=names, position=[joints[name] for name in names],
                                          velocity=[speeds.get(name, 0.0) for name in names]))
         if self.odometry and self.is_due("base", 0.02):
@@ -429,6 +441,7 @@ def main():
     parser.add_argument("--log", help="file for what happens, one JSON object a line")
     parser.add_argument("--base", type=float, nargs=3, default=[0.0, 0.0, 0.0], help="pose of the base at the start")
     parser.add_argument("--sigma", type=float, default=0.005, help="standard deviation of the localisation in m")
+    parser.add_argument("--turns", type=int, default=0, help="how often the axis of the base's yaw has gone round")
     args = parser.parse_args()
     with open(args.binding, "rb") as file:
         binding = tomllib.load(file)
@@ -438,7 +451,7 @@ def main():
         names = [name for one in binding.get("controllers", []) for name in one.get("joints", [])]
         body = Still({**dict.fromkeys(names, 0.0), **START}, args.base)
     log = open(args.log, "a") if args.log else None
-    robot = Robot(binding, body, args.fault, args.domain, log, args.sigma)
+    robot = Robot(binding, body, args.fault, args.domain, log, args.sigma, args.turns)
     print("ready", flush=True)
     robot.run()
 

@@ -71,6 +71,46 @@ def test_a_held_goal_goes_on_along_its_path():
         assert 0.02 < second["points"][0][1][0] < 0.38 and abs(second["points"][-1][1][0] - 0.4) < 1e-9
 
 
+def test_a_server_that_ignores_a_hold_gets_a_trajectory_that_stands_still():
+    with RobotProcess("--fault", "ignore-cancel") as robot, Driver() as driver:
+        goal = driver.lift(0.6, secs=5.0)
+        time.sleep(0.8)
+        driver.call("hold", goal=goal)
+        assert driver.report("ended", goal, 3.0) is None
+        height = driver.moved["joints"]["arm_lift_joint"]
+        assert driver.report("ended", goal, 1.5) is None
+        assert 0.01 < height < 0.5 and abs(driver.moved["joints"]["arm_lift_joint"] - height) < 1e-6
+        driver.call("proceed", goal=goal)
+        assert driver.ended(goal) == {"success": None}
+        assert abs(robot.events("trajectory")[-1]["points"][-1][1][0] - 0.6) < 1e-9
+
+
+def test_a_success_is_said_when_the_robot_stands_still():
+    with RobotProcess("--fault", "early") as robot, Driver() as driver:
+        goal = driver.lift(0.3, secs=2.0)
+        assert robot.wait("early")
+        assert driver.report("ended", goal, 0.7) is None, "the server has said so, and the arm moves"
+        assert driver.ended(goal) == {"success": None}
+        assert robot.events("done")
+
+
+@pytest.mark.parametrize("closes", [True, False])
+def test_a_host_that_does_not_read_holds_up_no_stop(closes):
+    with RobotProcess() as robot:
+        driver = Driver()
+        driver.lift(0.6, secs=20.0)
+        assert robot.wait("trajectory")
+        if closes:
+            driver.deaf(closes=True)
+            assert driver.process.wait(timeout=10) != 0
+        else:
+            driver.deaf(closes=False)
+            time.sleep(8.0)
+            driver.send({"jsonrpc": "2.0", "id": 99, "method": "cancel", "params": {"goal": 1}})
+        assert robot.wait("cancel", 3.0)
+        driver.kill()
+
+
 def test_a_server_that_ignores_the_cancel_gets_a_trajectory_that_stands_still():
     with RobotProcess("--fault", "ignore-cancel") as robot, Driver() as driver:
         goal = driver.lift(0.6, secs=8.0)
@@ -303,9 +343,37 @@ def test_a_canceled_navigation_ends_when_the_base_stands_still():
             goal = drive(driver, [1.5, 0.0, 0.0])
             time.sleep(1.5)
             driver.call("cancel", goal=goal)
-            assert driver.ended(goal, 15.0) == "interrupted"
-            assert len(robot.events("twist")) > 0 if faults else True
+            if not faults:
+                assert driver.ended(goal, 15.0) == "interrupted"
+            else:
+                # A navigation that does not end could drive on at any time, although it stands still.
+                assert driver.report("lost", goal, 15.0) is not None and robot.events("twist")
+                driver.call("safe_stop", goal=goal)
+                assert driver.report("stopped", goal, 2.0) is None
+                assert driver.call("status", goals=[goal])["goals"][0]["state"] == "running"
+                assert driver.close() == 2
             assert driver.moved["base"][0] < 1.2
+
+
+def test_an_arm_does_not_follow_a_path_from_where_the_base_is_not():
+    with RobotProcess("--fault", "beside", binding="nav.toml") as robot, Driver("nav.toml", motet="/bin/false") as driver:
+        goal = drive(driver, [0.4, 0.2, 0.0], [("arm_lift_joint", 0.2)])
+        assert "no answer" in driver.ended(goal, 15.0)["failure"]["text"]
+        [text] = [text for text in driver.texts(goal) if "path" in text]
+        assert text == "the base is 0.200 m and 0.000 rad from where the path begins; a new path is looked for"
+        assert robot.events("navigate") and not robot.events("trajectory")
+
+
+def test_a_base_that_has_gone_round_does_not_turn_back_at_a_stop():
+    with RobotProcess("--fault", "ignore-cancel", "--turns", "1") as robot, Driver() as driver:
+        goal = drive(driver, [0.3, 0.0, 0.5], secs=6.0)
+        assert robot.wait("trajectory")
+        time.sleep(0.8)
+        driver.call("cancel", goal=goal)
+        assert driver.ended(goal, 10.0) == "interrupted"
+        first, *others = [event for event in robot.events("trajectory") if "odom_t" in event["joints"]]
+        yaws = [point[1][first["joints"].index("odom_t")] for event in (first, *others) for point in event["points"]]
+        assert others and all(6.2 < yaw < 6.9 for yaw in yaws), yaws
 
 
 def test_a_path_on_which_base_and_arm_move_at_once_is_no_navigation():

@@ -138,13 +138,10 @@ fn controlled(robot: &Robot) -> Vec<(String, f64)> {
 fn end_of(robot: &Robot, witness: &Witness) -> Result<Vec<(String, f64)>, String> {
     let binding = &robot.binding;
     let last = witness.path.last().ok_or("the path has no waypoint")?;
-    if binding.base.odometry.is_some() {
-        let base = robot.body.base(binding)?;
-        let apart = (base.x - last.base[0]).hypot(base.y - last.base[1]);
-        let turn = super::moving::wrapped(base.yaw - last.base[2]).abs();
-        if apart > binding.start.base || turn > binding.start.turn {
-            return Err(format!("the base is {apart:.3} m and {turn:.3} rad from where the path ends"));
-        }
+    if binding.base.odometry.is_some()
+        && let Some(away) = super::moving::base_away(robot.body.base(binding)?, last.base, binding)
+    {
+        return Err(format!("the base is {away} from where the path ends"));
     }
     let joints = witness.joints.iter().zip(&last.joints);
     let joints = joints.map(|(joint, position)| (binding.ros_joint(joint).to_owned(), *position));

@@ -1,7 +1,7 @@
 //! Motions of a task: paths from the command or of the driver's own, as trajectories and navigations.
 
 use super::{Move, Phase, Running, Surroundings, Task, unheard};
-use crate::bind::Direction;
+use crate::bind::{Binding, Controller, Deed, Direction};
 use crate::joint::{Axis, Part, Trajectory};
 use crate::plan::{self, Question};
 use crate::robot::Robot;
@@ -11,7 +11,11 @@ use crossbeam_channel::bounded;
 use motet_graph::{Value as Argument, Witness};
 use motet_robots::clearance::GREATEST_CLEARANCE;
 use serde_json::{Value, json};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
+
+/// Greatest number of paths of a step that are looked for because the robot is not where a path begins.
+const MAX_DETOURS: u32 = 2;
 
 impl Task {
     pub(super) fn begin_motion(&mut self, around: &mut Surroundings<'_>, direction: Direction) -> bool {
@@ -35,7 +39,10 @@ impl Task {
             return !self.waits_for(around, &missing) && self.stopping.is_some();
         }
         if let Some(witness) = &motion.witness {
-            match self.departure(around, witness).and_then(|()| is_clear(around.robot, witness)) {
+            let start = witness.path.first().map(|first| (first.base, first.joints.clone()));
+            let start = start.ok_or_else(|| "the path has no waypoint".to_owned());
+            let is_there = start.and_then(|start| is_at(around.robot, &start, &names_of(witness)));
+            match is_there.and_then(|()| is_clear(around.robot, witness)) {
                 Ok(()) => {
                     self.take_path(around, &witness.clone());
                     return true;
@@ -44,10 +51,27 @@ impl Task {
             }
         }
         if let Err(why) = self.plan(around, plan::motion(&motion)) {
-            self.plan_by_move_group(around, &why.into());
+            self.fail(around, why);
             return true;
         }
         false
+    }
+
+    /// Looks for another path where the robot is not where a move begins, such as behind a navigation that
+    /// ends near its goal. A way back has none.
+    pub(super) fn plan_anew(&mut self, around: &mut Surroundings<'_>, away: String) {
+        let is_there = self.steps.front().is_some_and(|step| step.deed == Deed::Motion(Direction::There));
+        let motion = self.command.motions.first().filter(|_| is_there && self.detours < MAX_DETOURS);
+        let Some(motion) = motion.map(|motion| plan::motion(motion)) else {
+            self.fail(around, away);
+            return;
+        };
+        self.detours += 1;
+        self.moves.clear();
+        self.feedback.push(format!("{away}; a new path is looked for"));
+        if let Err(why) = self.plan(around, motion) {
+            self.fail(around, why);
+        }
     }
 
     /// Turns the camera to what the first argument is or describes. Without a place or a way to look the step
@@ -90,39 +114,13 @@ impl Task {
         }
         let question = Question::new(around.card, &around.world.scene, motion, base, &joints, clearance);
         let question = question.ok_or("the command `motet`, which plans paths, was not found")?;
-        let (sender, answer) = bounded(1);
+        let ((sender, answer), wanted) = (bounded(1), Arc::new(()));
+        let is_wanted = Arc::downgrade(&wanted);
         std::thread::spawn(move || {
             // The task may be over before its answer.
-            let _ = sender.send(Box::new(question.ask()));
+            let _ = sender.send(Box::new(question.ask(&is_wanted)));
         });
-        self.phase = Phase::Planning { answer };
-        Ok(())
-    }
-
-    /// Says how far the robot is from the start of a path, if it is too far.
-    pub(super) fn departure(&self, around: &Surroundings<'_>, witness: &Witness) -> Result<(), String> {
-        let binding = &around.robot.binding;
-        let Some(first) = witness.path.first() else { return Err("the path has no waypoint".to_owned()) };
-        for (joint, value) in witness.joints.iter().zip(&first.joints) {
-            let name = binding.ros_joint(joint);
-            // Joints of the hand are moved by the steps of the primitive.
-            if !binding.controls(name) {
-                continue;
-            }
-            let is = around.robot.body.position(name);
-            let Some(is) = is else { return Err(format!("the position of `{name}` is unknown")) };
-            if (is - value).abs() > binding.start.joints {
-                return Err(format!("`{name}` is at {is:.3}, and the path begins at {value:.3}"));
-            }
-        }
-        if binding.base.odometry.is_some() {
-            let base = around.robot.body.base(binding)?;
-            let apart = (base.x - first.base[0]).hypot(base.y - first.base[1]);
-            let turn = wrapped(base.yaw - first.base[2]).abs();
-            if apart > binding.start.base || turn > binding.start.turn {
-                return Err(format!("the base is {apart:.3} m and {turn:.3} rad from where the path begins"));
-            }
-        }
+        self.phase = Phase::Planning { answer, _wanted: wanted };
         Ok(())
     }
 
@@ -132,16 +130,22 @@ impl Task {
             self.fail(around, text);
             return;
         }
-        self.width = witness.grasp.as_ref().map_or(0.0, |grasp| grasp.width);
+        let mut part = match Part::of(witness) {
+            Ok(part) => part,
+            Err(wrong) => {
+                self.fail(around, wrong);
+                return;
+            }
+        };
+        self.width = witness.grasp.as_ref().map(|grasp| grasp.width);
         let stretch = self.command.manner.map_or(1.0, motet_graph::Manner::stretch);
         let is_planned =
             self.command.motions.first().and_then(|motion| motion.witness.as_deref()) != Some(witness);
-        let mut part = Part::of(witness);
         if is_planned {
             // A path of the driver's own has the times of full speed.
             part.legs.iter_mut().flatten().for_each(|secs| *secs *= stretch);
         }
-        let names: Vec<String> = witness.joints.iter().map(ToString::to_string).collect();
+        let names = names_of(witness);
         self.path = Some((part.clone(), names.clone()));
         self.plan_moves(around, &part, &names);
     }
@@ -176,6 +180,17 @@ impl Task {
     }
 
     pub(super) fn begin_move(&mut self, around: &mut Surroundings<'_>, next: Move) -> bool {
+        if let Move::Follow(part, names) = &next
+            && let Some(start) = part.waypoints.first()
+        {
+            if let Some(missing) = unheard(around.robot) {
+                return !self.waits_for(around, &missing) && self.stopping.is_some();
+            }
+            if let Err(away) = is_at(around.robot, start, names) {
+                self.plan_anew(around, away);
+                return self.stopping.is_some();
+            }
+        }
         let goals = match self.goals(around, &next) {
             Ok(goals) => goals,
             Err(why) => {
@@ -218,7 +233,7 @@ impl Task {
                 let header = json!({"frame_id": robot.binding.frames.map});
                 let goal = json!({"pose": {"header": header, "pose": of_pose(pose.xyz, pose.quaternion)},
                     "behavior_tree": navigation.behavior_tree});
-                self.parts.1 = true;
+                self.parts.drives = true;
                 Ok(vec![(action, goal, self.command.deadline_secs)])
             }
             Move::Group(goal) => {
@@ -235,9 +250,9 @@ impl Task {
                     let trajectory = self.trajectory(robot, controller, part, &names)?;
                     if let Some(trajectory) = trajectory {
                         if controller.base.is_empty() {
-                            self.parts.0.extend(controller.joints.iter().cloned());
+                            self.parts.joints.extend(controller.joints.iter().cloned());
                         } else {
-                            self.parts.1 = true;
+                            self.parts.drives = true;
                         }
                         goals.push((action, trajectory.goal(), part.secs() + controller.late_secs));
                     }
@@ -251,7 +266,7 @@ impl Task {
     pub(super) fn trajectory(
         &self,
         robot: &Robot,
-        controller: &crate::bind::Controller,
+        controller: &Controller,
         part: &Part,
         names: &[&str],
     ) -> Result<Option<Trajectory>, String> {
@@ -263,16 +278,8 @@ impl Task {
             let frame = robot.body.frames.look_up(&frames.map, &controller.frame, None, frames.age_secs)?;
             let axes = [Axis::Base(0), Axis::Base(1), Axis::Base(2)];
             let mut trajectory = part.trajectory(&controller.base, &axes, names, frame.planar());
-            // An axis of yaw may have gone round before: of all turns, the one where it is.
-            let (points, is) = (
-                trajectory.iter_mut().flat_map(|one| &mut one.points),
-                robot.body.position(&controller.base[2]),
-            );
-            let mut turns = None;
-            for point in points {
-                let yaw = &mut point.positions[2];
-                let turns = *turns.get_or_insert_with(|| is.map_or(0.0, |is| is - *yaw - wrapped(is - *yaw)));
-                *yaw += turns;
+            if let Some(trajectory) = &mut trajectory {
+                turn_to(robot, controller, trajectory);
             }
             return Ok(trajectory);
         }
@@ -357,6 +364,50 @@ impl Task {
             }
         }
     }
+}
+
+/// Turns a trajectory of the base as often as its axis of yaw has gone round before.
+pub(super) fn turn_to(robot: &Robot, controller: &Controller, trajectory: &mut Trajectory) {
+    let is = controller.base.get(2).and_then(|yaw| robot.body.position(yaw));
+    let first = trajectory.points.first().and_then(|point| point.positions.get(2));
+    let Some((is, first)) = is.zip(first) else { return };
+    let turns = is - first - wrapped(is - first);
+    trajectory.points.iter_mut().filter_map(|point| point.positions.get_mut(2)).for_each(|yaw| *yaw += turns);
+}
+
+fn names_of(witness: &Witness) -> Vec<String> {
+    witness.joints.iter().map(ToString::to_string).collect()
+}
+
+/// Says how far the robot is from where a path begins, if it is too far. `names` are those of the joints.
+fn is_at(robot: &Robot, (base, joints): &([f64; 3], Vec<f64>), names: &[String]) -> Result<(), String> {
+    let binding = &robot.binding;
+    for (joint, value) in names.iter().zip(joints) {
+        let name = binding.ros_joint(joint);
+        // Joints of the hand are moved by the steps of the primitive.
+        if !binding.controls(name) || is_hand(name) {
+            continue;
+        }
+        let is = robot.body.position(name);
+        let Some(is) = is else { return Err(format!("the position of `{name}` is unknown")) };
+        if (is - value).abs() > binding.start.joints {
+            return Err(format!("`{name}` is at {is:.3}, and the path begins at {value:.3}"));
+        }
+    }
+    if binding.base.odometry.is_none() {
+        return Ok(());
+    }
+    match base_away(robot.body.base(binding)?, *base, binding) {
+        Some(away) => Err(format!("the base is {away} from where the path begins")),
+        None => Ok(()),
+    }
+}
+
+/// Distance of the base from a place, in words, if it is too great.
+pub(super) fn base_away(is: Planar, place: [f64; 3], binding: &Binding) -> Option<String> {
+    let (apart, turn) = ((is.x - place[0]).hypot(is.y - place[1]), wrapped(is.yaw - place[2]).abs());
+    let is_away = apart > binding.start.base || turn > binding.start.turn;
+    is_away.then(|| format!("{apart:.3} m and {turn:.3} rad"))
 }
 
 /// Distance in m that paths must keep for the error of the localisation.

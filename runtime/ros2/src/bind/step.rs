@@ -1,0 +1,170 @@
+//! Steps of a primitive.
+
+use super::late;
+use serde::Deserialize;
+use serde_json::Value;
+
+/// Primitive as steps, one after the other.
+#[derive(Clone, PartialEq, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Primitive {
+    pub(crate) steps: Vec<StepTable>,
+}
+
+/// Step as the file writes it: exactly one of its first ten keys.
+#[derive(Clone, PartialEq, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct StepTable {
+    motion: Option<Direction>,
+    gripper: Option<Opening>,
+    action: Option<String>,
+    service: Option<String>,
+    topic: Option<String>,
+    wait_secs: Option<f64>,
+    require: Option<String>,
+    look: Option<bool>,
+    detect: Option<bool>,
+    answer: Option<String>,
+    #[serde(rename = "type")]
+    type_name: Option<String>,
+    message: Option<Value>,
+    timeout_secs: Option<f64>,
+    /// False for an action or a service that moves nothing.
+    moves: Option<bool>,
+    /// Failure of the step.
+    fails: Option<String>,
+    /// Words of the failure.
+    text: Option<String>,
+    /// Expression of the result.
+    value: Option<String>,
+}
+
+/// Way along a path.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum Direction {
+    There,
+    Back,
+}
+
+/// Goal of the hand.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum Opening {
+    Open,
+    Close,
+    /// As wide as the grasp of the path asks for.
+    Width,
+}
+
+/// Message to an action, a service or a topic.
+#[derive(Clone, PartialEq, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Call {
+    pub(crate) kind: CallKind,
+    pub(crate) name: String,
+    #[serde(rename = "type")]
+    pub(crate) type_name: String,
+    #[serde(default)]
+    pub(crate) message: Value,
+    #[serde(default = "late")]
+    pub(crate) timeout_secs: f64,
+    /// True if it may move parts of the robot.
+    #[serde(default = "yes")]
+    pub(crate) moves: bool,
+}
+
+const fn yes() -> bool {
+    true
+}
+
+/// Kind of interface.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum CallKind {
+    Action,
+    Service,
+    Topic,
+}
+
+/// Step of a primitive.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Step {
+    pub(crate) deed: Deed,
+    /// Failure if the step does not succeed; the first that the primitive declares without one.
+    pub(crate) fails: Option<String>,
+    pub(crate) text: Option<String>,
+}
+
+/// What a step does.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) enum Deed {
+    Motion(Direction),
+    Gripper(Opening),
+    Call(Call),
+    Wait(f64),
+    /// Expression that must hold.
+    Require(String),
+    /// Turn the camera to the entity that the first argument is or describes, if it is known where that is.
+    Look,
+    /// Wait for a detection of what the first argument describes.
+    Detect,
+    /// Wait for a message of a topic; the expression over it is the result.
+    Answer {
+        topic: String,
+        type_name: String,
+        value: String,
+        timeout_secs: f64,
+    },
+}
+
+impl StepTable {
+    /// Names of the interfaces that it uses.
+    pub(super) fn names(&mut self) -> impl Iterator<Item = &mut String> {
+        [&mut self.action, &mut self.service, &mut self.topic, &mut self.answer].into_iter().flatten()
+    }
+
+    /// The step.
+    ///
+    /// # Errors
+    ///
+    /// The keys that are missing, or are too many.
+    pub(crate) fn step(&self) -> Result<Step, String> {
+        let call = |kind, name: &String| -> Result<Deed, String> {
+            let type_name = self.type_name.clone().ok_or_else(|| format!("`{name}` needs a `type`"))?;
+            let message = self.message.clone().unwrap_or_default();
+            let timeout_secs = self.timeout_secs.unwrap_or_else(late);
+            // The message of a topic is sent at once: there is nothing to interrupt.
+            let moves = kind != CallKind::Topic && self.moves.unwrap_or(true);
+            Ok(Deed::Call(Call { kind, name: name.clone(), type_name, message, timeout_secs, moves }))
+        };
+        let answer = |topic: &String| -> Result<Deed, String> {
+            let type_name = self.type_name.clone().ok_or_else(|| format!("`{topic}` needs a `type`"))?;
+            let value = self.value.clone().ok_or_else(|| format!("`{topic}` needs a `value`"))?;
+            let timeout_secs = self.timeout_secs.unwrap_or(60.0);
+            Ok(Deed::Answer { topic: topic.clone(), type_name, value, timeout_secs })
+        };
+        let deeds = [
+            self.motion.map(|direction| Ok(Deed::Motion(direction))),
+            self.gripper.map(|opening| Ok(Deed::Gripper(opening))),
+            self.action.as_ref().map(|name| call(CallKind::Action, name)),
+            self.service.as_ref().map(|name| call(CallKind::Service, name)),
+            self.topic.as_ref().map(|name| call(CallKind::Topic, name)),
+            self.wait_secs.map(|secs| Ok(Deed::Wait(secs))),
+            self.require.as_ref().map(|text| Ok(Deed::Require(text.clone()))),
+            self.look.filter(|is_set| *is_set).map(|_| Ok(Deed::Look)),
+            self.detect.filter(|is_set| *is_set).map(|_| Ok(Deed::Detect)),
+            self.answer.as_ref().map(answer),
+        ];
+        let mut deeds = deeds.into_iter().flatten();
+        let deed = match (deeds.next(), deeds.next()) {
+            (Some(deed), None) => deed?,
+            _ => {
+                return Err("a step has exactly one of motion, gripper, action, service, topic, wait_secs, \
+                            require, look, detect and answer"
+                    .to_owned());
+            }
+        };
+        Ok(Step { deed, fails: self.fails.clone(), text: self.text.clone() })
+    }
+}
