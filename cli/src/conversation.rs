@@ -17,13 +17,14 @@ use serde_json::json;
 
 pub(crate) use flags::ConversationArgs;
 use observer::RunObserver;
-use operator::{AskingDriver, OperatorInput, OperatorPrompt};
+use operator::{OperatorAnswers, OperatorInput, OperatorPrompt};
 use record::ConversationRecord;
 
 use crate::error::{CliError, Exit};
 use crate::flags::OutputFormat;
 use crate::interrupt::{catch_interrupts, is_interrupted};
 use crate::output::{Colors, escape, note};
+use crate::questions::{QuestionDriver, jumps};
 use crate::ready_driver::{ReadyDriver, RunSubject, open_driver};
 use crate::report::Report;
 use crate::view::live::LivePage;
@@ -73,7 +74,8 @@ pub(crate) fn converse(
     let mut asking;
     // The simulated person of a script answers the questions of policies.
     let robot: &mut dyn Driver = if args.driver.answers.is_none() {
-        asking = AskingDriver::new(&mut *driver, prompt.clone(), &setting.scene);
+        let answers = OperatorAnswers { operator: prompt.clone(), scene: &setting.scene };
+        asking = QuestionDriver::new(&mut *driver, answers, Time::ZERO, jumps(speed, clock));
         &mut asking
     } else {
         &mut *driver

@@ -15,6 +15,7 @@ mod flags;
 mod interrupt;
 mod output;
 mod projects;
+mod questions;
 mod ready_driver;
 mod report;
 mod result_file;

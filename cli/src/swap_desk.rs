@@ -4,6 +4,7 @@
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::thread;
+use std::time::Instant;
 
 use motet_compiler::{CheckOptions, Session};
 use motet_graph::Graph;
@@ -22,6 +23,8 @@ const BUSY: Time = Time::from_nanos(2_000_000);
 pub(crate) struct Offer {
     pub(crate) policy: String,
     pub(crate) reply: Sender<SwapResult>,
+    /// Time until which it may take over. Who offered it waits no longer.
+    pub(crate) until: Instant,
 }
 
 /// Result of an offer: the policy that has taken over, or the refusal.
@@ -35,8 +38,8 @@ pub(crate) struct SwapDesk {
     opened: Arc<ProjectSession>,
     setup: DialogueSetup,
     offers: Receiver<Offer>,
-    /// Check that goes on, with who waits.
-    checking: Option<(Receiver<Checked>, Sender<SwapResult>)>,
+    /// Check that goes on, with who waits, and until when.
+    checking: Option<(Receiver<Checked>, Sender<SwapResult>, Instant)>,
     swapping: Option<Sender<SwapResult>>,
 }
 
@@ -64,8 +67,9 @@ impl SwapDesk {
             Err(TryRecvError::Empty) => return None,
             Err(TryRecvError::Disconnected) => Err(refusal("the check failed inside", Vec::new())),
         };
-        let (_, reply) = self.checking.take()?;
+        let (_, reply, until) = self.checking.take()?;
         let prepared = match checked {
+            _ if Instant::now() > until => Err(refusal("the check took too long", Vec::new())),
             _ if engine.is_over() => Err(refusal("the run is over", Vec::new())),
             // The engine refuses a policy that was proved from facts that have changed since.
             Ok(graph) => PreparedSwap::new(graph, &engine.running()).map_err(|wrong| untaken(&wrong)),
@@ -85,7 +89,9 @@ impl SwapDesk {
     }
 
     fn begin(&mut self, engine: &Engine) {
-        let Ok(Offer { policy, reply }) = self.offers.try_recv() else { return };
+        // While the run did not look, some may have waited in vain.
+        let offer = self.offers.try_iter().find(|offer| Instant::now() <= offer.until);
+        let Some(Offer { policy, reply, until }) = offer else { return };
         let mut talk = Conversation::new(&self.setup);
         talk.tell(self.opened.told_facts());
         let (session, opened) = (talk.midway(engine), Arc::clone(&self.opened));
@@ -94,7 +100,7 @@ impl SwapDesk {
             // The run may be over before its check.
             let _ = sender.send(check(&session, &opened, policy));
         });
-        self.checking = Some((checked, reply));
+        self.checking = Some((checked, reply, until));
     }
 
     /// Tells who offered a policy if the engine has taken it.

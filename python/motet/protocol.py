@@ -39,6 +39,7 @@ class Session:
         self.run: str | None = None
         self.primitives: dict[str, dict[str, Any]] = {}
         self.instance: str = f"{os.getpid()}-{time.time_ns()}"
+        self.forgets: int = 0
         self.goals: dict[int, Goal] = {}
         self.states: dict[int, Any] = {}
         self.tasks: dict[int, asyncio.Task[Any]] = {}
@@ -58,12 +59,14 @@ class Session:
         if params["run"] != self.run:
             await self.stop_all()
             self.forget()
+            # Who knew the driver before is not to take a forgotten goal for one that never began.
+            self.forgets += self.run is not None
             self.run = params["run"]
             self._origin = self.loop.time() - params.get("at", 0.0)
         self.primitives = {primitive["name"]: primitive for primitive in params["primitives"]}
         self.driver.begin_run(params)
         name = self.driver.name or type(self.driver).__name__
-        answer = {"protocol": PROTOCOL, "driver": name, "instance": self.instance}
+        answer = {"protocol": PROTOCOL, "driver": name, "instance": f"{self.instance}-{self.forgets}"}
         return answer | {"capabilities": self.driver._capabilities()}
 
     async def start(self, params: dict[str, Any]) -> Any:

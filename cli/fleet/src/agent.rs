@@ -1,9 +1,10 @@
 //! `motet agent`: runs orders on a robot, lets policies take over, and reports. It goes on without the link.
 
-use crate::link::{Fleet, POLICIES, RESULTS, STATES, SWAPS, ServerArgs, name};
+use crate::link::{Fleet, POLICIES, RESULTS, STATES, SWAPS, ServerArgs, name, within_message};
 use crate::run::{Events, OrderFolder, RunSettings, tell_page};
 use crate::ship::Shipment;
-use crate::signed::{Trust, What, Words, now, open};
+use crate::signed::{Trust, What, Words, now, open, read};
+use async_nats::connection::State;
 use async_nats::jetstream::{AckKind, Message};
 use futures::StreamExt as _;
 use serde_json::{Value, json};
@@ -11,7 +12,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
-use tokio::time::sleep;
+use tokio::time::{sleep, timeout};
 
 /// Time between two looks at a run, and between two states that are told.
 const LOOKS: Duration = Duration::from_millis(50);
@@ -20,8 +21,11 @@ const TELLS: Duration = Duration::from_secs(2);
 const WORKS: Duration = Duration::from_secs(5);
 /// Time after which something that the server did not take is tried again.
 const AGAIN: Duration = Duration::from_millis(500);
-/// Number of times that a run that was cut off is continued.
-const RESUMES: u32 = 5;
+/// Number of times that a run that was cut off is continued, and the longest wait before one.
+const RESUMES: u32 = 10;
+const MAX_WAIT: Duration = Duration::from_secs(8);
+/// Time for something that a run does with the server beside its work.
+const BESIDE: Duration = Duration::from_secs(2);
 
 #[derive(clap::Args, Debug)]
 pub(crate) struct AgentArgs {
@@ -61,6 +65,8 @@ struct Current {
     folder: OrderFolder,
     step: String,
     question: Option<(String, String)>,
+    /// False for a run of an agent before this one, until its order is given out again.
+    is_followed: bool,
 }
 
 /// What the tasks of an agent share.
@@ -84,12 +90,13 @@ pub(crate) async fn serve(args: AgentArgs) -> Result<u8, String> {
         .ok_or("`motet` is neither beside this program nor in PATH")?;
     std::fs::create_dir_all(&args.folder).map_err(|error| format!("{}: {error}", args.folder.display()))?;
     let root = std::path::absolute(&args.folder).map_err(|error| error.to_string())?;
+    own(&root)?;
     let lock =
         std::fs::File::create(root.join("lock")).map_err(|error| format!("{}: {error}", root.display()))?;
     if !fs4::fs_std::FileExt::try_lock_exclusive(&lock).unwrap_or(false) {
         return Err(format!("another agent uses {}", root.display()));
     }
-    let client = args.server.connect(&format!("motet agent {}", args.robot), true).await?;
+    let client = args.server.connect(&args.robot, true).await?;
     let agent = Arc::new(Agent {
         robot: args.robot.clone(),
         root,
@@ -106,6 +113,7 @@ pub(crate) async fn serve(args: AgentArgs) -> Result<u8, String> {
         shipments: tokio::sync::Mutex::default(),
     });
     crate::run::client();
+    agent.take_up();
     println!("ready");
     let tasks = [
         tokio::spawn(forever(Arc::clone(&agent), "orders", |agent| async move { agent.take_orders().await })),
@@ -126,6 +134,16 @@ pub(crate) async fn serve(args: AgentArgs) -> Result<u8, String> {
     let _ = tokio::signal::ctrl_c().await;
     tasks.iter().for_each(tokio::task::JoinHandle::abort);
     Ok(0)
+}
+
+/// Keeps a folder from everybody else: it has the tokens of the pages of runs.
+fn own(folder: &Path) -> Result<(), String> {
+    #[cfg(unix)]
+    {
+        let mode = std::os::unix::fs::PermissionsExt::from_mode(0o700);
+        std::fs::set_permissions(folder, mode).map_err(|error| format!("{}: {error}", folder.display()))?;
+    }
+    Ok(())
 }
 
 /// Does something again and again, whatever the link does. A reason is printed once until it changes.
@@ -168,18 +186,31 @@ impl Agent {
 
     /// Carries an order out, however often it is delivered.
     async fn carry_out(&self, message: &Message) -> Result<(), String> {
-        let words = match open(&message.payload, &self.trust, &self.robot) {
+        let words = match read(&message.payload, &self.trust, &self.robot) {
             Ok(words) => words,
-            // An order whose time is over may have begun before: then it goes on as it was when it came.
-            Err(why) => match self.begun(&message.payload) {
-                Some(words) => words,
-                None => return self.refuse(message, &why).await,
-            },
+            Err(why) => return self.refuse(message, &why).await,
         };
         let id = words.id.clone();
         let folder = OrderFolder(self.root.join("orders").join(&id));
-        let folder =
-            if folder.has_order() { folder } else { OrderFolder::create(&self.root.join("orders"), &words)? };
+        if let Some(before) = folder.order()
+            && before.what != words.what
+        {
+            eprintln!("motet-fleet: an order is left out: `{id}` was the id of another one");
+            return message.double_ack().await.map_err(|error| error.to_string());
+        }
+        // An order whose time is over may have begun before: then it goes on.
+        if folder.result().is_none()
+            && !folder.has_begun()
+            && !folder.is_running()
+            && let Err(late) = words.check_time()
+        {
+            return self.refuse(message, &late).await;
+        }
+        let folder = if folder.order().is_some() {
+            folder
+        } else {
+            OrderFolder::create(&self.root.join("orders"), &words)?
+        };
         let result = match folder.result() {
             Some(result) => result,
             None => {
@@ -192,12 +223,6 @@ impl Agent {
         self.ship(&id, &folder).await;
         self.tell_result(&id, &result).await?;
         message.double_ack().await.map_err(|error| error.to_string())
-    }
-
-    /// Words of an order that has begun on this robot, by the id that a message claims.
-    fn begun(&self, payload: &[u8]) -> Option<Words> {
-        let folder = OrderFolder(self.root.join("orders").join(claimed_id(payload)?));
-        serde_json::from_slice(&std::fs::read(folder.0.join("order.json")).ok()?).ok()
     }
 
     async fn refuse(&self, message: &Message, why: &str) -> Result<(), String> {
@@ -215,7 +240,9 @@ impl Agent {
             fields.insert("robot".to_owned(), json!(self.robot));
             fields.insert("order".to_owned(), json!(order));
         }
-        bucket.put(order, told.to_string().into()).await.map(|_| ()).map_err(|error| error.to_string())
+        let key = format!("{}.{order}", self.robot);
+        let told = within_message(told).to_string().into();
+        bucket.put(key, told).await.map(|_| ()).map_err(|error| error.to_string())
     }
 
     /// Runs an order to its end, or follows its run that goes on already.
@@ -223,7 +250,7 @@ impl Agent {
         if !matches!(words.what, What::Run { .. }) {
             return Ok(json!({"state": "refused", "why": "the words are no order"}));
         }
-        let (mut child, mut resumes, mut worked) = (None, 0, Instant::now());
+        let (mut child, mut resumes, mut worked, mut is_stop_told) = (None, 0, Instant::now(), false);
         let mut events = Events::default();
         if !folder.is_running() {
             child = Some(folder.start(&self.settings)?);
@@ -236,10 +263,16 @@ impl Agent {
                 folder: folder.clone(),
                 step: events.step.clone(),
                 question: events.question.clone(),
+                is_followed: true,
             };
             *self.current() = Some(current);
-            if is_new {
-                let _ = self.put_state().await;
+            let is_linked = self.fleet.client.connection_state() == State::Connected;
+            if is_new && is_linked {
+                let _ = timeout(BESIDE, self.put_state()).await;
+            }
+            if folder.is_stopped() && !is_stop_told {
+                // A run that has just begun has no page yet.
+                is_stop_told = tell_page(folder, "/stop", String::new(), "text/plain").await.is_ok();
             }
             let is_over = match &mut child {
                 Some(process) => match process.try_wait() {
@@ -259,17 +292,22 @@ impl Agent {
                 resumes += 1;
                 if resumes > RESUMES {
                     let why = "its process ended again and again before the run was over";
+                    let why = format!("{why}; {}", folder.last_error("it printed no error"));
                     return Ok(json!({"state": "failed", "why": why}));
                 }
-                sleep(AGAIN).await;
+                // The robot's driver may need its time, too.
+                sleep((AGAIN * 2_u32.pow(resumes.min(5) - 1)).min(MAX_WAIT)).await;
                 child = Some(folder.start(&self.settings)?);
+                is_stop_told = false;
             }
-            if worked.elapsed() > WORKS {
+            // Without a link the order is given out again later; its folder says what it did.
+            if worked.elapsed() > WORKS && is_linked {
                 worked = Instant::now();
-                // Without a link the order is given out again later; its folder says what it did.
-                let _ = message.ack_with(AckKind::Progress).await;
+                let _ = timeout(BESIDE, message.ack_with(AckKind::Progress)).await;
             }
-            self.ship(&words.id, folder).await;
+            if is_linked {
+                let _ = timeout(BESIDE, self.ship(&words.id, folder)).await;
+            }
             sleep(LOOKS).await;
         }
     }
@@ -290,7 +328,8 @@ impl Agent {
             if let Some(fields) = told.as_object_mut() {
                 fields.insert("id".to_owned(), json!(id));
             }
-            results.put(&self.robot, told.to_string().into()).await.map_err(|error| error.to_string())?;
+            let told = within_message(told).to_string().into();
+            results.put(&self.robot, told).await.map_err(|error| error.to_string())?;
         }
         Err("the watch of the policies has ended".to_owned())
     }
@@ -298,8 +337,9 @@ impl Agent {
     /// Lets a policy take over; its id, with what became of it.
     async fn swap(&self, bytes: &[u8]) -> Result<(String, Value), String> {
         let words = open(bytes, &self.trust, &self.robot)?;
-        let What::Swap { policy } = words.what else { return Err("the words have no policy".to_owned()) };
-        let current = self.current().clone().ok_or("no run goes on")?;
+        let What::Swap { order, policy } = words.what else {
+            return Err("the words have no policy".to_owned());
+        };
         // A policy that was offered once is not offered again, also not to a later order.
         let swaps = self.root.join("swaps");
         let wrong = |error: std::io::Error| format!("{}: {error}", swaps.display());
@@ -309,6 +349,8 @@ impl Agent {
             std::io::ErrorKind::AlreadyExists => "the policy has been offered before".to_owned(),
             _ => wrong(error),
         })?;
+        let current = self.current().clone().filter(|current| current.order == order);
+        let current = current.ok_or_else(|| format!("the order `{order}` does not run"))?;
         let answer = tell_page(&current.folder, "/swap", policy, "text/plain").await;
         let told = match answer {
             Ok(mut swapped) => {
@@ -333,7 +375,7 @@ impl Agent {
         while let Some(request) = requests.next().await {
             let what = request.subject.rsplit('.').next().unwrap_or_default().to_owned();
             let answer = match what.as_str() {
-                "stop" => self.control("/stop").await,
+                "stop" => self.stop().await,
                 "answer" => self.answer(&request.payload).await,
                 _ => continue,
             };
@@ -346,17 +388,12 @@ impl Agent {
         Err("the subscription has ended".to_owned())
     }
 
-    async fn control(&self, path: &str) -> Result<Value, String> {
-        let current = self.current().clone().ok_or("no run goes on")?;
-        let told = tell_page(&current.folder, path, String::new(), "text/plain").await;
-        told.map(|_| json!({"order": current.order})).or_else(|refusal| {
-            // A page says nothing when it takes a wish.
-            if refusal.get("problem") == Some(&json!("")) {
-                Ok(json!({"order": current.order}))
-            } else {
-                Err(refusal.to_string())
-            }
-        })
+    /// Stops the run. If its process does not answer now, the run stops as soon as one does.
+    async fn stop(&self) -> Result<Value, String> {
+        let folder = self.current().clone().ok_or("no run goes on")?.folder;
+        folder.want_stop()?;
+        let is_told = tell_page(&folder, "/stop", String::new(), "text/plain").await.is_ok();
+        Ok(json!({"order": folder.id(), "is_told": is_told}))
     }
 
     async fn answer(&self, bytes: &[u8]) -> Result<Value, String> {
@@ -391,7 +428,19 @@ impl Agent {
         bucket.put(&self.robot, state.to_string().into()).await.map(|_| ()).map_err(|error| error.to_string())
     }
 
+    /// Takes up a run that goes on from an agent before this one, so that it is told and can be stopped.
+    fn take_up(&self) {
+        let running = folders(&self.root.join("orders")).into_iter().find(OrderFolder::is_running);
+        let current = |folder: OrderFolder| {
+            let (order, step) = (folder.id(), String::new());
+            Current { order, folder, step, question: None, is_followed: false }
+        };
+        *self.current() = running.map(current);
+    }
+
     async fn tell_state(&self) -> Result<(), String> {
+        // Its order may never come again.
+        self.current().take_if(|current| !current.is_followed && !current.folder.is_running());
         self.put_state().await?;
         sleep(TELLS.saturating_sub(AGAIN)).await;
         Ok(())
@@ -409,8 +458,7 @@ impl Agent {
     /// Ships all journals that have not arrived as a whole.
     async fn ship_journals(&self) -> Result<(), String> {
         for folder in folders(&self.root.join("orders")) {
-            let order =
-                folder.0.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+            let order = folder.id();
             let mark = folder.0.join("shipped");
             if mark.exists() {
                 continue;
@@ -430,7 +478,10 @@ impl Agent {
 
 fn folders(root: &Path) -> Vec<OrderFolder> {
     let entries = std::fs::read_dir(root).into_iter().flatten();
-    entries.filter_map(|entry| Some(OrderFolder(entry.ok()?.path()))).filter(OrderFolder::has_order).collect()
+    entries
+        .filter_map(|entry| Some(OrderFolder(entry.ok()?.path())))
+        .filter(|folder| folder.order().is_some())
+        .collect()
 }
 
 /// Id that words claim to have, whoever signed them.

@@ -105,11 +105,11 @@ async fn push(folder: &Path, url: &Url) -> Result<u8, String> {
     }
     for name in &names {
         let path = folder.join(name);
-        let sum = checksum(&path)?;
-        if there.get(name) == Some(&sum) {
+        if there.get(name) == Some(&checksum(&path)?) {
             continue;
         }
-        upload(&*store, &place.clone().join(name.as_str()), &path).await?;
+        // A file may grow meanwhile: the list has the checksum of what was sent.
+        let sum = upload(&*store, &place.clone().join(name.as_str()), &path).await?;
         there.insert(name.clone(), sum);
         sent += 1;
         // After each file the list says what is there: a push that was cut off goes on.
@@ -121,11 +121,12 @@ async fn push(folder: &Path, url: &Url) -> Result<u8, String> {
     Ok(0)
 }
 
-async fn upload(store: &dyn ObjectStore, place: &Place, path: &Path) -> Result<(), String> {
+/// Sends a file; the checksum of what was sent.
+async fn upload(store: &dyn ObjectStore, place: &Place, path: &Path) -> Result<String, String> {
     let wrong = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
     let mut file = std::fs::File::open(path).map_err(|error| wrong(&error))?;
     let mut bytes = vec![0; CHUNK];
-    let mut upload: Option<WriteMultipart> = None;
+    let (mut upload, mut sum): (Option<WriteMultipart>, _) = (None, Sha256::new());
     loop {
         let mut filled = 0;
         while filled < bytes.len() {
@@ -134,14 +135,12 @@ async fn upload(store: &dyn ObjectStore, place: &Place, path: &Path) -> Result<(
                 count => filled += count,
             }
         }
+        sum.update(&bytes[..filled]);
         if upload.is_none() && filled < bytes.len() {
             let small = bytes[..filled].to_vec();
             let options = PutOptions { attributes: Attributes::new(), ..PutOptions::default() };
-            return store
-                .put_opts(place, small.into(), options)
-                .await
-                .map(|_| ())
-                .map_err(|error| wrong(&error));
+            store.put_opts(place, small.into(), options).await.map_err(|error| wrong(&error))?;
+            break;
         }
         if upload.is_none() {
             let begun = store.put_multipart(place).await.map_err(|error| wrong(&error))?;
@@ -155,10 +154,10 @@ async fn upload(store: &dyn ObjectStore, place: &Place, path: &Path) -> Result<(
             break;
         }
     }
-    match upload {
-        Some(upload) => upload.finish().await.map(|_| ()).map_err(|error| wrong(&error)),
-        None => Ok(()),
+    if let Some(upload) = upload {
+        upload.finish().await.map_err(|error| wrong(&error))?;
     }
+    Ok(crate::signed::hex(&sum.finalize()))
 }
 
 async fn pull(url: &Url, folder: &Path) -> Result<u8, String> {
@@ -179,9 +178,21 @@ async fn pull(url: &Url, folder: &Path) -> Result<u8, String> {
             continue;
         }
         let part = folder.join(format!("{name}.part"));
-        download(&*store, &place.clone().join(name.as_str()), &part).await?;
-        if checksum(&part)? != *sum {
-            return Err(format!("the checksum of `{name}` is wrong; {} has what came", part.display()));
+        let from = place.clone().join(name.as_str());
+        let has_begun = part.exists();
+        download(&*store, &from, &part).await?;
+        let mut is_right = checksum(&part)? == *sum;
+        if !is_right {
+            // What an earlier pull had begun may be of another file: once more from its start.
+            std::fs::remove_file(&part).map_err(|error| format!("{}: {error}", part.display()))?;
+            if has_begun {
+                download(&*store, &from, &part).await?;
+                is_right = checksum(&part)? == *sum;
+            }
+        }
+        if !is_right {
+            let _ = std::fs::remove_file(&part);
+            return Err(format!("the checksum of `{name}` is wrong"));
         }
         std::fs::rename(&part, &path).map_err(|error| format!("{}: {error}", path.display()))?;
         fetched += 1;

@@ -5,7 +5,7 @@ use async_nats::jetstream::consumer::PullConsumer;
 use async_nats::jetstream::{self, kv, stream};
 use async_nats::{Client, ConnectOptions};
 use futures::StreamExt as _;
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::io::Write as _;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -48,10 +48,11 @@ pub(crate) struct ServerArgs {
 }
 
 impl ServerArgs {
-    /// Connects. With `waits` the server may come later; otherwise a server that is not there is an error.
+    /// Connects as somebody with a name. Answers come to an inbox of this name. With `waits` the server may come later; otherwise a server that is not there is an error.
     pub(crate) async fn connect(&self, name: &str, waits: bool) -> Result<Client, String> {
         let mut options = ConnectOptions::new()
-            .name(name)
+            .name(format!("motet {name}"))
+            .custom_inbox_prefix(format!("_INBOX_{name}"))
             .ping_interval(Duration::from_secs(2))
             .connection_timeout(Duration::from_secs(5))
             .max_reconnects(if waits { None } else { Some(3) })
@@ -164,8 +165,12 @@ impl Fleet {
         let mut states = Vec::new();
         while let Some(robot) = keys.next().await {
             let robot = robot.map_err(|error| error.to_string())?;
-            let state = bucket.get(&robot).await.map_err(|error| error.to_string())?;
-            let state = state.and_then(|bytes| serde_json::from_slice(&bytes).ok()).unwrap_or_default();
+            let entry = bucket.entry(&robot).await.map_err(|error| error.to_string())?;
+            let Some(entry) = entry else { continue };
+            let state = serde_json::from_slice(&entry.value).ok().filter(Value::is_object);
+            let mut state = state.unwrap_or_else(|| json!({}));
+            // The clock of the server says how old it is, not the one of the robot.
+            state["at"] = json!(entry.created.unix_timestamp());
             states.push((robot, state));
         }
         states.sort_by(|one, other| one.0.cmp(&other.0));
@@ -183,6 +188,28 @@ impl Fleet {
     }
 }
 
+/// Greatest size of a value that goes into a message.
+const MAX_VALUE: usize = 256 * 1024;
+/// Letters of a text of a value that is too large.
+const MAX_TEXT: usize = 500;
+
+/// A value that fits into a message: without its findings and the rest of its long texts if need be.
+pub(crate) fn within_message(mut value: Value) -> Value {
+    if value.to_string().len() <= MAX_VALUE {
+        return value;
+    }
+    if let Some(fields) = value.as_object_mut() {
+        fields.insert("findings".to_owned(), json!([]));
+        fields.retain(|_, field| !field.is_object());
+        for field in fields.values_mut() {
+            if let Value::String(text) = field {
+                *text = text.chars().take(MAX_TEXT).collect();
+            }
+        }
+    }
+    value
+}
+
 /// Prints a text with a line break. Nobody may read it.
 pub(crate) fn say(text: &str) {
     let _ = writeln!(std::io::stdout(), "{text}");
@@ -194,5 +221,22 @@ pub(crate) fn name(text: &str) -> Result<String, String> {
         Ok(text.to_owned())
     } else {
         Err("write 1 to 64 letters, digits, `_` and `-`".to_owned())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_too_large_for_a_message_loses_its_findings() {
+        let small = json!({"state": "refused", "why": "x", "findings": ["a"]});
+        assert_eq!(within_message(small.clone()), small);
+        let large =
+            json!({"state": "refused", "why": "x".repeat(MAX_VALUE), "findings": ["y".repeat(MAX_VALUE)]});
+        let cut = within_message(large);
+        assert_eq!(cut["state"], "refused");
+        assert_eq!(cut["why"].as_str().unwrap().len(), MAX_TEXT);
+        assert!(cut.to_string().len() < 1_000);
     }
 }

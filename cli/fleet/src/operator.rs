@@ -78,6 +78,9 @@ struct SwapArgs {
     /// File with the private key of the operator
     #[arg(long, value_name = "FILE")]
     key: PathBuf,
+    /// Order whose policy it takes over from [default: the one that runs]
+    #[arg(long, value_name = "NAME", value_parser = name)]
+    order: Option<String>,
 }
 
 #[derive(clap::Args, Debug)]
@@ -85,7 +88,11 @@ struct AskArgs {
     #[arg(value_parser = name)]
     robot: String,
     /// Answer; without one the open question is shown
+    #[arg(requires = "question")]
     answer: Option<String>,
+    /// Question that it answers, as `status` shows it
+    #[arg(long, value_name = "ORDER/NUMBER", requires = "answer")]
+    question: Option<String>,
     /// File with the private key of the operator
     #[arg(long, value_name = "FILE", requires = "answer")]
     key: Option<PathBuf>,
@@ -112,7 +119,9 @@ pub(crate) async fn run(args: FleetArgs) -> Result<u8, String> {
         ));
         return Ok(0);
     }
-    let fleet = Fleet::new(args.server.connect("motet fleet", false).await?);
+    // A page goes on when the server is away for a while.
+    let waits = matches!(args.command, Command::View(_));
+    let fleet = Fleet::new(args.server.connect("operator", waits).await?);
     match args.command {
         Command::Init => fleet.create().await.map(|()| 0),
         Command::Key { .. } => Ok(0),
@@ -146,7 +155,8 @@ async fn status(fleet: &Fleet) -> Result<u8, String> {
         };
         say(&format!("{:<20} {what}", clean(&robot)));
         if !text("/question/text").is_empty() && silent <= SILENT {
-            say(&format!("{:<20} asks: {}", "", text("/question/text")));
+            let id = format!("{}/{}", text("/order"), text("/question/id"));
+            say(&format!("{:<20} asks: {} (question {id})", "", text("/question/text")));
         }
     }
     Ok(0)
@@ -176,40 +186,60 @@ async fn send(fleet: &Fleet, args: &SendArgs) -> Result<u8, String> {
     let what = What::Run { policy: read(&args.policy)?, state };
     let signed = sign(&private_key(&args.key)?, &id, &args.robot, args.life, what)?;
     let bucket = fleet.bucket(RESULTS).await?;
-    let mut results = bucket.watch(&id).await.map_err(|error| error.to_string())?;
+    let key = format!("{}.{id}", args.robot);
+    let mut results = bucket.watch(&key).await.map_err(|error| error.to_string())?;
     let mut headers = async_nats::HeaderMap::new();
     // The server takes an order once, however often it is sent.
-    headers.insert("Nats-Msg-Id", id.as_str());
+    headers.insert("Nats-Msg-Id", key.as_str());
     let sent =
         fleet.js.publish_with_headers(format!("motet.orders.{}", args.robot), headers, signed.into()).await;
     let acknowledged = sent.map_err(|error| error.to_string())?.await;
-    acknowledged.map_err(|error| format!("the server did not take the order: {error}"))?;
+    let acknowledged = acknowledged.map_err(|error| format!("the server did not take the order: {error}"))?;
+    if acknowledged.duplicate {
+        eprintln!("motet-fleet: an order of this id was sent before; no other one runs");
+    }
     if !args.wait {
         say(&id);
         return Ok(0);
     }
+    // The order may have been sent before, and be over.
+    let told = bucket.get(&key).await.map_err(|error| error.to_string())?;
+    if let Some(code) = told.as_deref().and_then(exit_code) {
+        return code;
+    }
     while let Some(entry) = results.next().await {
         let entry = entry.map_err(|error| error.to_string())?;
-        if let Ok(result) = serde_json::from_slice::<Value>(&entry.value) {
-            report(&result)?;
-            let is_done = result.get("outcome") == Some(&json!("done"));
-            let is_refused = result.get("state") == Some(&json!("refused"));
-            return Ok(if is_done {
-                0
-            } else if is_refused {
-                1
-            } else {
-                3
-            });
+        if let Some(code) = exit_code(&entry.value) {
+            return code;
         }
     }
     Err("the link was cut before the result came".to_owned())
 }
 
+/// Prints the result of an order; the exit code. `None` if it is none.
+fn exit_code(result: &[u8]) -> Option<Result<u8, String>> {
+    let result: Value = serde_json::from_slice(result).ok()?;
+    let is_done = result.get("outcome") == Some(&json!("done"));
+    let is_refused = result.get("state") == Some(&json!("refused"));
+    Some(report(&result).map(|_| match (is_done, is_refused) {
+        (true, _) => 0,
+        (_, true) => 1,
+        (false, false) => 3,
+    }))
+}
+
 async fn swap(fleet: &Fleet, args: &SwapArgs) -> Result<u8, String> {
     let id = new_id()?;
-    let signed =
-        sign(&private_key(&args.key)?, &id, &args.robot, 60, What::Swap { policy: read(&args.policy)? })?;
+    let order = match &args.order {
+        Some(order) => order.clone(),
+        None => {
+            let state = state(fleet, &args.robot).await?;
+            let order = state.get("order").and_then(Value::as_str).map(str::to_owned);
+            order.ok_or("no run goes on")?
+        }
+    };
+    let what = What::Swap { order, policy: read(&args.policy)? };
+    let signed = sign(&private_key(&args.key)?, &id, &args.robot, 60, what)?;
     let results = fleet.bucket(SWAPS).await?;
     let mut told = results.watch(&args.robot).await.map_err(|error| error.to_string())?;
     let (policies, begun) = (fleet.bucket(POLICIES).await?, Instant::now());
@@ -234,20 +264,27 @@ async fn swap(fleet: &Fleet, args: &SwapArgs) -> Result<u8, String> {
 }
 
 async fn ask(fleet: &Fleet, args: &AskArgs) -> Result<u8, String> {
-    let bucket = fleet.bucket(STATES).await?;
-    let state = bucket.get(&args.robot).await.map_err(|error| error.to_string())?;
-    let state: Value = state.and_then(|bytes| serde_json::from_slice(&bytes).ok()).unwrap_or_default();
-    let text = |path: &str| state.pointer(path).and_then(Value::as_str).map(str::to_owned);
-    let question = text("/question/id").zip(text("/question/text")).zip(text("/order"));
-    let ((question, words), order) = question.ok_or("the robot asks nothing")?;
-    let Some(answer) = &args.answer else {
-        say(&clean(&words));
+    let Some((answer, question)) = args.answer.as_ref().zip(args.question.as_ref()) else {
+        let state = state(fleet, &args.robot).await?;
+        let text = |path: &str| state.pointer(path).and_then(Value::as_str).map(clean);
+        let question = text("/question/id").zip(text("/question/text")).zip(text("/order"));
+        let ((question, words), order) = question.ok_or("the robot asks nothing")?;
+        say(&format!("{words}\nquestion {order}/{question}"));
         return Ok(0);
     };
+    // The answer is for the question that the operator has read, whatever is open now.
+    let (order, question) = question.split_once('/').ok_or("write --question ORDER/NUMBER")?;
+    let (order, question) = (order.to_owned(), question.to_owned());
     let key = private_key(args.key.as_deref().ok_or("an answer needs --key")?)?;
     let what = What::Answer { order, question, text: answer.clone() };
     let signed = sign(&key, &new_id()?, &args.robot, 60, what)?;
     report(&fleet.request(&args.robot, "answer", signed).await?)
+}
+
+/// State of a robot as it told it last.
+async fn state(fleet: &Fleet, robot: &str) -> Result<Value, String> {
+    let state = fleet.bucket(STATES).await?.get(robot).await.map_err(|error| error.to_string())?;
+    Ok(state.and_then(|bytes| serde_json::from_slice(&bytes).ok()).unwrap_or_default())
 }
 
 /// Lines of a journal from the server, checked for gaps.
@@ -274,10 +311,14 @@ pub(crate) async fn lines(fleet: &Fleet, robot: &str, order: &str) -> Result<Vec
             .and_then(|text| text.parse().ok())
             .ok_or_else(|| wrong("a line has no number".to_owned()))?;
         let is_first = header(PART).is_none_or(|part| part.starts_with("0/"));
+        let whole = || message.payload.split_inclusive(|byte| *byte == b'\n').map(<[u8]>::to_vec);
         match number {
-            _ if number == lines.len() && is_first => lines.push(message.payload.to_vec()),
+            _ if number == lines.len() && is_first => lines.extend(whole()),
             // A further part of the last line, or the last line again after the link was cut.
-            _ if number + 1 == lines.len() && is_first => lines[number] = message.payload.to_vec(),
+            _ if number + 1 == lines.len() && is_first => {
+                lines.truncate(number);
+                lines.extend(whole());
+            }
             _ if number + 1 == lines.len() => lines[number].extend(message.payload.iter()),
             _ => return Err(wrong(format!("line {} is followed by line {number}", lines.len()))),
         }

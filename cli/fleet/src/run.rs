@@ -3,13 +3,17 @@
 use crate::signed::{What, Words};
 use serde_json::{Value, json};
 use std::fs::File;
-use std::io::{Read as _, Seek as _, SeekFrom, Write as _};
+use std::io::{BufRead as _, BufReader, Read as _, Seek as _, SeekFrom, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
 use std::sync::OnceLock;
 use std::time::Duration;
 use tokio::process::{Child, Command};
 
+/// File with the events of a run. A process of the run locks it.
+const EVENTS: &str = "events.jsonl";
+/// File that is there once somebody wants the run to stop.
+const STOP: &str = "stop";
 /// Greatest number of bytes of events that are read at a time.
 const CHUNK: u64 = 1024 * 1024;
 /// Most findings of a result.
@@ -66,23 +70,52 @@ impl OrderFolder {
         serde_json::from_slice(&bytes).ok()
     }
 
-    /// True if the folder has the order.
-    pub(crate) fn has_order(&self) -> bool {
-        self.0.join("order.json").is_file()
+    /// The order, if it is there as a whole.
+    pub(crate) fn order(&self) -> Option<Words> {
+        serde_json::from_slice(&std::fs::read(self.0.join("order.json")).ok()?).ok()
+    }
+
+    /// Id of the order.
+    pub(crate) fn id(&self) -> String {
+        self.0.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
     }
 
     pub(crate) fn journal(&self) -> PathBuf {
         self.0.join("run")
     }
 
-    /// True while a process writes the journal.
+    /// True while a process of the run is there. It locks its output from before it opens the robot's driver,
+    /// and its journal.
     pub(crate) fn is_running(&self) -> bool {
-        let Ok(lock) = File::open(self.journal().join("lock")) else { return false };
-        let is_free = fs4::fs_std::FileExt::try_lock_exclusive(&lock).unwrap_or(false);
-        if is_free {
-            let _ = fs4::fs_std::FileExt::unlock(&lock);
-        }
-        !is_free
+        let is_locked = |path: PathBuf| {
+            let Ok(lock) = File::open(path) else { return false };
+            let is_free = fs4::fs_std::FileExt::try_lock_exclusive(&lock).unwrap_or(false);
+            if is_free {
+                let _ = fs4::fs_std::FileExt::unlock(&lock);
+            }
+            !is_free
+        };
+        is_locked(self.0.join(EVENTS)) || is_locked(self.journal().join("lock"))
+    }
+
+    /// True if the journal of the run has a line: something may have moved.
+    pub(crate) fn has_begun(&self) -> bool {
+        let Some(first) = segments(&self.journal()).into_iter().next() else { return false };
+        let is_whole = |file: File| {
+            let mut line = Vec::new();
+            BufReader::new(file).read_until(b'\n', &mut line).is_ok_and(|_| line.ends_with(b"\n"))
+        };
+        File::open(first).is_ok_and(is_whole)
+    }
+
+    /// True if somebody wants the run to stop, whatever becomes of its process.
+    pub(crate) fn is_stopped(&self) -> bool {
+        self.0.join(STOP).exists()
+    }
+
+    /// Notes that somebody wants the run to stop.
+    pub(crate) fn want_stop(&self) -> Result<(), String> {
+        self.write(STOP, b"")
     }
 
     /// Address and token of the page of the run, from what its process has printed.
@@ -99,11 +132,12 @@ impl OrderFolder {
         let wrong = |error: std::io::Error| format!("{}: {error}", self.0.display());
         let append =
             |name: &str| File::options().create(true).append(true).open(self.0.join(name)).map_err(wrong);
-        let is_resumed = std::fs::read_dir(self.journal()).is_ok_and(|mut files| {
-            files.any(|file| {
-                file.is_ok_and(|file| file.path().extension().is_some_and(|end| end == "journal"))
-            })
-        });
+        let events = append(EVENTS)?;
+        // The process inherits the lock, and keeps it until it ends.
+        if !fs4::fs_std::FileExt::try_lock_exclusive(&events).unwrap_or(false) {
+            return Err("the run goes on already".to_owned());
+        }
+        let is_resumed = self.has_begun();
         let mut command = Command::new(&settings.motet);
         command.arg("run");
         if is_resumed {
@@ -130,7 +164,7 @@ impl OrderFolder {
             command.args(["--speed", speed]);
         }
         command.args(["--view=127.0.0.1:0", "--format", "json"]);
-        command.stdin(Stdio::null()).stdout(append("events.jsonl")?).stderr(append("errors.log")?);
+        command.stdin(Stdio::null()).stdout(events).stderr(append("errors.log")?);
         // A signal for the agent is not one for the run.
         command.process_group(0);
         command.spawn().map_err(|error| format!("cannot start `{}`: {error}", settings.motet.display()))
@@ -139,7 +173,8 @@ impl OrderFolder {
     /// Result of a run whose process has ended with a code; without one, of a process that this agent has not
     /// started. `None` if the run was cut off and can go on.
     pub(crate) fn ending(&self, code: Option<i32>) -> Option<Value> {
-        let events = std::fs::read_to_string(self.0.join("events.jsonl")).unwrap_or_default();
+        let events = std::fs::read(self.0.join(EVENTS)).unwrap_or_default();
+        let events = String::from_utf8_lossy(&events);
         let events: Vec<Value> = events.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
         let named = |name: &'static str| {
             move |event: &&Value| event.get("event").and_then(Value::as_str) == Some(name)
@@ -148,20 +183,37 @@ impl OrderFolder {
             let outcome = finished.get("outcome").cloned().unwrap_or_default();
             return Some(json!({"state": "ended", "outcome": outcome, "why": finished.get("why")}));
         }
+        // Nothing is refused that may have moved: the run goes on, or it has failed.
+        if self.has_begun() {
+            return None;
+        }
         let findings: Vec<&Value> = events.iter().filter(named("diagnostic")).take(MAX_FINDINGS).collect();
         match code {
             Some(1) => {
                 Some(json!({"state": "refused", "why": "the check refuses the policy", "findings": findings}))
             }
-            Some(2) => {
-                let said = std::fs::read_to_string(self.0.join("errors.log")).unwrap_or_default();
-                let why =
-                    said.lines().rfind(|line| line.starts_with("error")).unwrap_or("the run could not start");
-                Some(json!({"state": "refused", "why": why.chars().take(500).collect::<String>()}))
-            }
+            Some(2) => Some(json!({"state": "refused", "why": self.last_error("the run could not start")})),
             _ => None,
         }
     }
+
+    /// Last error that a process of the run has printed.
+    pub(crate) fn last_error(&self, otherwise: &str) -> String {
+        let said = std::fs::read(self.0.join("errors.log")).unwrap_or_default();
+        let said = String::from_utf8_lossy(&said);
+        let line = said.lines().rfind(|line| line.starts_with("error")).unwrap_or(otherwise);
+        line.chars().take(500).collect()
+    }
+}
+
+/// Files of a journal, in order.
+pub(crate) fn segments(journal: &Path) -> Vec<PathBuf> {
+    let files = std::fs::read_dir(journal).into_iter().flatten();
+    let paths = files.filter_map(|file| Some(file.ok()?.path()));
+    let mut segments: Vec<PathBuf> =
+        paths.filter(|path| path.extension().is_some_and(|end| end == "journal")).collect();
+    segments.sort();
+    segments
 }
 
 /// Name of the file of a policy.
@@ -182,7 +234,7 @@ pub(crate) struct Events {
 impl Events {
     /// Reads what is new. True if the step or the question has changed.
     pub(crate) fn follow(&mut self, folder: &OrderFolder) -> bool {
-        let Ok(mut file) = File::open(folder.0.join("events.jsonl")) else { return false };
+        let Ok(mut file) = File::open(folder.0.join(EVENTS)) else { return false };
         let mut bytes = Vec::new();
         let read =
             file.seek(SeekFrom::Start(self.read)).and_then(|_| file.take(CHUNK).read_to_end(&mut bytes));
@@ -239,4 +291,48 @@ pub(crate) async fn tell_page(
     let text = answer.text().await.unwrap_or_default();
     let value = serde_json::from_str(&text).unwrap_or(json!({"problem": text}));
     if status.is_success() { Ok(value) } else { Err(value) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_run_that_has_begun_is_not_refused() {
+        let root = std::env::temp_dir().join(format!("motet-fleet-run-{}", std::process::id()));
+        let folder = OrderFolder(root.clone());
+        std::fs::create_dir_all(folder.journal()).unwrap();
+        std::fs::write(root.join("errors.log"), "note\nerror: no driver\n").unwrap();
+        let segment = folder.journal().join("000000000000.journal");
+        std::fs::write(&segment, "{\"head\"").unwrap();
+        assert!(!folder.has_begun(), "the first line is torn");
+        let refused = folder.ending(Some(2)).unwrap();
+        assert_eq!((&refused["state"], &refused["why"]), (&json!("refused"), &json!("error: no driver")));
+        std::fs::write(&segment, "{\"head\": 1}\n").unwrap();
+        assert!(folder.has_begun());
+        assert_eq!(
+            (folder.ending(Some(2)), folder.ending(Some(1)), folder.ending(Some(0))),
+            (None, None, None)
+        );
+        std::fs::write(root.join(EVENTS), "{\"event\":\"finished\",\"outcome\":\"done\"}\n").unwrap();
+        assert_eq!(folder.ending(Some(0)).unwrap()["outcome"], "done");
+        assert!(!folder.is_stopped());
+        folder.want_stop().unwrap();
+        assert!(folder.is_stopped());
+        std::fs::remove_dir_all(&root).unwrap();
+    }
+
+    #[test]
+    fn a_process_of_a_run_keeps_others_away() {
+        let root = std::env::temp_dir().join(format!("motet-fleet-lock-{}", std::process::id()));
+        std::fs::create_dir_all(&root).unwrap();
+        let folder = OrderFolder(root.clone());
+        assert!(!folder.is_running());
+        let events = File::options().create(true).append(true).open(root.join(EVENTS)).unwrap();
+        assert!(fs4::fs_std::FileExt::try_lock_exclusive(&events).unwrap());
+        assert!(folder.is_running());
+        drop(events);
+        assert!(!folder.is_running());
+        std::fs::remove_dir_all(&root).unwrap();
+    }
 }

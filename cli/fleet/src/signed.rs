@@ -49,8 +49,8 @@ pub(crate) enum What {
         #[serde(default)]
         state: Option<Value>,
     },
-    /// Let a policy take over from the one that runs.
-    Swap { policy: String },
+    /// Let a policy take over from the one of an order that runs.
+    Swap { order: String, policy: String },
     /// Answer a question of the run of an order.
     Answer { order: String, question: String, text: String },
 }
@@ -124,8 +124,22 @@ pub(crate) fn sign(
     }
 }
 
+impl Words {
+    /// Says since when words do not count any more.
+    pub(crate) fn check_time(&self) -> Result<(), String> {
+        let late = now().saturating_sub(self.until);
+        if late > 0 { Err(format!("they counted until {late} s before now")) } else { Ok(()) }
+    }
+}
+
 /// Words of a trusted key for this robot that still count.
 pub(crate) fn open(bytes_of: &[u8], trust: &Trust, robot: &str) -> Result<Words, String> {
+    let words = read(bytes_of, trust, robot)?;
+    words.check_time().map(|()| words)
+}
+
+/// Words of a trusted key for this robot, whether or not they still count.
+pub(crate) fn read(bytes_of: &[u8], trust: &Trust, robot: &str) -> Result<Words, String> {
     if bytes_of.len() > MAX_BYTES {
         return Err(format!("they have more than {MAX_BYTES} bytes"));
     }
@@ -144,9 +158,6 @@ pub(crate) fn open(bytes_of: &[u8], trust: &Trust, robot: &str) -> Result<Words,
     }
     if !is_name(&words.id) {
         return Err("their id is no name".to_owned());
-    }
-    if words.until < now() {
-        return Err(format!("they counted until {} s before now", now() - words.until));
     }
     if words.at > now() + CLOCKS || words.until > words.at + MAX_LIFE {
         return Err("their times are wrong".to_owned());
@@ -193,7 +204,7 @@ mod tests {
     }
 
     fn said(key: &SigningKey, robot: &str, life: u64) -> Vec<u8> {
-        let what = What::Swap { policy: "policy a for hsr { done }".to_owned() };
+        let what = What::Swap { order: "order-0".to_owned(), policy: "policy a for hsr { done }".to_owned() };
         sign(key, "order-1", robot, life, what).unwrap()
     }
 
@@ -209,12 +220,26 @@ mod tests {
         changed.body = changed.body.replace("policy a", "policy b");
         assert_eq!(wrong(&serde_json::to_vec(&changed).unwrap(), "kitchen_1"), "their signature is wrong");
         assert!(wrong(b"{}", "kitchen_1").starts_with("they are not signed"));
-        let what = What::Swap { policy: String::new() };
+        let what = What::Swap { order: String::new(), policy: String::new() };
         let words = Words { id: "a/b".to_owned(), robot: "r".to_owned(), at: now(), until: now(), what };
         let body = serde_json::to_string(&words).unwrap();
         let signature = hex(&key(1).sign(body.as_bytes()).to_bytes());
         let signed = Signed { body, key: hex(key(1).verifying_key().as_bytes()), signature };
         assert_eq!(wrong(&serde_json::to_vec(&signed).unwrap(), "r"), "their id is no name");
+    }
+
+    #[test]
+    fn words_that_count_no_more_are_read_and_not_opened() {
+        let trust = Trust(vec![key(1).verifying_key()]);
+        let what = What::Run { policy: String::new(), state: None };
+        let times = (now() - 100, now() - 40);
+        let words = Words { id: "a".to_owned(), robot: "r".to_owned(), at: times.0, until: times.1, what };
+        let body = serde_json::to_string(&words).unwrap();
+        let signature = hex(&key(1).sign(body.as_bytes()).to_bytes());
+        let signed = Signed { body, key: hex(key(1).verifying_key().as_bytes()), signature };
+        let bytes = serde_json::to_vec(&signed).unwrap();
+        assert_eq!(read(&bytes, &trust, "r"), Ok(words));
+        assert!(open(&bytes, &trust, "r").unwrap_err().starts_with("they counted until 4"));
     }
 
     #[test]

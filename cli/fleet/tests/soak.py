@@ -93,9 +93,17 @@ class Soak:
             path.write_text("%s:%s-password\n" % (role, role))
         return path
 
+    def accounts(self):
+        """The users of this fleet, each robot with its own permissions."""
+        path = self.folder / "accounts.conf"
+        if not path.exists():
+            before, robot, after = ACCOUNTS.read_text().split("    # ROBOT\n")
+            path.write_text(before + "".join(robot.replace("NAME", "r%d" % at) for at in range(self.args.robots)) + after)
+        return path
+
     def start_server(self):
         log = open(self.folder / "server.log", "a")
-        command = [self.args.nats, "-c", str(ACCOUNTS), "-p", str(self.port), "-a", "127.0.0.1", "-js", "-sd", str(self.folder / "store")]
+        command = [self.args.nats, "-c", str(self.accounts()), "-p", str(self.port), "-a", "127.0.0.1", "-js", "-sd", str(self.folder / "store")]
         self.server = subprocess.Popen(command, stdout=log, stderr=log)
         for _ in range(100):
             try:
@@ -110,7 +118,7 @@ class Soak:
         port = self.port + 1 if number % 3 == 0 else self.port
         log = open(self.folder / (robot + ".log"), "a")
         command = [self.args.fleet, "agent", "--robot", robot, "--server", "nats://127.0.0.1:%d" % port, "--login",
-                   str(self.login("robot")), "--trust", str(self.folder / "anna.pub"), "--card", "hsr", "--scene", "kitchen",
+                   str(self.login(robot)), "--trust", str(self.folder / "anna.pub"), "--card", "hsr", "--scene", "kitchen",
                    "--folder", str(self.folder / robot), "--speed", str(self.args.speed), "--motet", self.args.motet]
         self.agents[robot] = subprocess.Popen(command, stdout=log, stderr=log)
 
@@ -245,6 +253,65 @@ class Soak:
         print("swaps: median %.1f ms, p99 %.1f ms, greatest %.1f ms of %d; %d refused %s"
               % (statistics.median(times), times[int(0.99 * (len(times) - 1))], times[-1], len(times), len(refused), refused[:2]))
 
+    def kill_run(self, order):
+        """Kills the process of the run of an order."""
+        for process in self.runs():
+            if order.encode() in Path("/proc/%d/cmdline" % process).read_bytes():
+                os.kill(process, signal.SIGKILL)
+
+    def send_policy(self, robot, order, steps):
+        path = self.folder / (order + ".motet")
+        path.write_text("policy own for hsr { %s done }" % steps)
+        self.fleet("send", robot, str(path), "--key", str(self.folder / "anna.key"), "--id", order)
+
+    def result(self, robot, order):
+        path = self.folder / robot / "orders" / order / "result.json"
+        limit = time.monotonic() + self.args.patience
+        while not path.exists() and time.monotonic() < limit:
+            time.sleep(0.1)
+        return json.loads(path.read_text())
+
+    def question(self, robot):
+        """The open question of a robot, as `ask` shows it."""
+        limit = time.monotonic() + self.args.patience
+        while time.monotonic() < limit:
+            shown = self.fleet("ask", robot, ok=(0, 2))
+            if "question " in shown:
+                return shown.split("question ")[-1].strip()
+            time.sleep(0.2)
+        raise AssertionError("%s asks nothing" % robot)
+
+    def questions(self):
+        """An answer is for the question that was read, and somebody answers also after the run was killed."""
+        key = ["--key", str(self.folder / "anna.key")]
+        self.send_policy("r1", "asks", 'let one = ask("May I go?") go(user) go(counter) let two = ask("May I stop?") say(two)')
+        first = self.question("r1")
+        wrong = self.fleet("ask", "r1", "yes", "--question", "other/1:3", *key, ok=(1,))
+        assert "does not run" in wrong, wrong
+        self.fleet("ask", "r1", "yes", "--question", first, *key)
+        while "go(" not in self.fleet("status"):
+            time.sleep(0.1)
+        self.kill_run("asks")
+        second = self.question("r1")
+        assert second != first, second
+        late = self.fleet("ask", "r1", "no", "--question", first, *key, ok=(1,))
+        assert "waits no longer" in late, late
+        self.fleet("ask", "r1", "yes", "--question", second, *key)
+        assert self.result("r1", "asks")["outcome"] == "done"
+
+    def stops(self):
+        """A stop holds although the process of the run has just been killed, and a policy takes over no other order."""
+        self.send_policy("r1", "stops", "go(user) go(counter) go(user) go(counter)")
+        while "stops: go(" not in self.fleet("status"):
+            time.sleep(0.1)
+        key = ["--key", str(self.folder / "anna.key")]
+        other = self.fleet("swap", "r1", str(self.folder / "swap.motet"), "--order", "asks", *key, ok=(1,))
+        assert "the order `asks` does not run" in other, other
+        self.kill_run("stops")
+        self.fleet("stop", "r1")
+        result = self.result("r1", "stops")
+        assert (result["state"], result["outcome"]) == ("ended", "interrupted"), result
+
     def permissions(self):
         """A robot may not give orders, and an order with a wrong key or for another robot does not run."""
         policy, key = self.folder / "policy.motet", str(self.folder / "anna.key")
@@ -253,11 +320,14 @@ class Soak:
         answer = self.fleet("send", "r1", str(policy), "--key", str(stranger), "--id", "strange", "--wait", ok=(1,))
         assert "their key is not trusted" in answer, answer
         try:
-            self.fleet("send", "r1", str(policy), "--key", key, "--id", "by-robot", role="robot")
+            self.fleet("send", "r1", str(policy), "--key", key, "--id", "by-robot", role="r2")
         except (AssertionError, subprocess.TimeoutExpired):
             pass
         else:
             raise AssertionError("a robot gave an order")
+        refused = [line for line in (self.folder / "server.log").read_text().splitlines() if "Violation" in line]
+        # What the robot tried above, and nothing else.
+        assert refused and all("motet.orders" in line or "_INBOX_operator" in line for line in refused), refused[:3]
         for name in ("server.log", *("%s.log" % robot for robot in self.agents)):
             text = (self.folder / name).read_text()
             assert "-password" not in text and (self.folder / "anna.key").read_text().strip() not in text, name
@@ -295,6 +365,8 @@ def main():
         soak.play()
         soak.check()
         soak.swaps()
+        soak.questions()
+        soak.stops()
         soak.permissions()
     finally:
         soak.close()

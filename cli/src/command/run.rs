@@ -18,14 +18,13 @@ use motet_host::remote::DriverAddress;
 use motet_host::remote::protocol::Hello;
 use motet_planner::runtime_check::Guard;
 use motet_project::{Project, ProjectSession, SavedDriver, SavedProject};
-use motet_robots::scene::Scene;
 use motet_runtime::journal::{
     DriverReplay, EngineReplay, JournalEntry, JournalHead, OpenGoals, ResumeEntry, StepEntry,
 };
-use motet_runtime::{Driver, DriverClock, Event, Time, Verifier as _};
+use motet_runtime::{Driver, DriverClock, Event, Observer as _, Time, Verifier as _};
 use motet_syntax::{Parsed, Severity, Syntax};
 
-use crate::conversation::operator::{AskingDriver, OperatorInput, OperatorPrompt};
+use crate::conversation::operator::{OperatorAnswers, OperatorInput, OperatorPrompt};
 use crate::documents::{Document, one_document};
 use crate::error::{CliError, Exit, journal_error};
 use crate::flags::{
@@ -33,6 +32,7 @@ use crate::flags::{
 };
 use crate::interrupt::note_open;
 use crate::output::{Colors, count, escape, note, opened_again, replace_file};
+use crate::questions::{QuestionDriver, jumps};
 use crate::ready_driver::{ReadyDriver, RunSubject, open_driver};
 use crate::report::Report;
 use crate::run_view::{Clock, view};
@@ -142,7 +142,7 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
     let is_simulated = matches!(&saved, Some(SavedDriver::Simulator(_)));
     let journal = match args.record.as_deref().zip(saved) {
         Some((folder, saved)) => {
-            let saved = if has_person { saved.with_person() } else { saved };
+            let saved = saved.with_person(has_person);
             let journal = create_journal(folder, &run, (&engine, &start), Some(&saved))?;
             let name = if written.1 == Syntax::Json { "policy.json" } else { "policy.motet" };
             replace_file(&folder.join(name), &written.0)?;
@@ -152,16 +152,14 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
     };
     let head = journal_head(&run, &engine, &start);
     let beginning = page.clone().map(|page| (page, Beginning::Head(Box::new(head))));
-    let empty = Scene::default();
+    let room = opened.scene.clone().unwrap_or_default();
     let mut asking;
-    let driver: &mut dyn Driver = match &page {
-        Some(page) if has_person => {
-            let input = Rc::new(OperatorInput::of_page(page));
-            let prompt = OperatorPrompt { input, page: Some(Rc::clone(page)) };
-            asking = AskingDriver::new(&mut *driver, prompt, opened.scene.as_ref().unwrap_or(&empty));
-            &mut asking
-        }
-        Some(_) | None => &mut *driver,
+    let driver: &mut dyn Driver = if has_person {
+        let answers = OperatorAnswers { operator: operator(page.as_ref()), scene: &room };
+        asking = QuestionDriver::new(&mut *driver, answers, Time::ZERO, jumps(speed, clock));
+        &mut asking
+    } else {
+        &mut *driver
     };
     let view = view(args.format, engine.graph(), colors, clock);
     // Where the driver keeps the time of the wall clock, the view never waits.
@@ -169,6 +167,12 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
     let paced = with_desk(paced, page.as_ref(), Some(Arc::clone(&shared)), args, (colors, clock));
     let events = vec![Event::Begin];
     Runner { engine, driver, journal, is_simulated, from: Time::ZERO, events }.run(paced, beginning)
+}
+
+/// Operator at the page of a run; nobody without one.
+fn operator(page: Option<&SharedPage>) -> OperatorPrompt {
+    let input = Rc::new(page.map_or(OperatorInput::Never, OperatorInput::of_page));
+    OperatorPrompt { input, page: page.map(Rc::clone) }
 }
 
 /// The view with a desk of policies that are to take over, if the run has a page to offer them.
@@ -252,9 +256,14 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
     let (mut ledger, mut retrace) = (OpenGoals::default(), DriverReplay::default());
     let mut questions = saved.asks().then(AnsweredQuestions::default);
     let checked = saved.project().filter(|_| head.settings.verify_within.is_some());
-    let course = checked.and_then(|checked| open_course(checked, report));
+    let session = checked.and_then(|checked| open_session(checked, report));
+    let course = session.as_ref().and_then(|opened| opened.session.world_tracker());
     let mut guard = course.map(|course| Guard::new(course, speed.verifies()));
-    let mut begun = false;
+    let room = match &saved {
+        SavedDriver::Simulator(saved) => Some(saved.scene()?),
+        SavedDriver::Process { .. } => session.and_then(|opened| opened.scene),
+    };
+    let (mut begun, mut has_noticed) = (false, false);
     for (number, entry) in entries.iter().enumerate() {
         let differs = |why: String| CliError::Message(format!("entry {number} of the journal: {why}"));
         match replay.take(entry) {
@@ -266,8 +275,8 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
             }
             Err(error) => return Err(differs(error.to_string())),
         }
+        let seen = questions.as_mut().map(|questions| questions.without(entry));
         if let Some(simulator) = &mut simulator {
-            let seen = questions.as_mut().map(|questions| questions.without(entry));
             let taken = retrace.take(simulator, seen.as_ref().unwrap_or(entry));
             taken.map_err(|astray| differs(astray.to_string()))?;
         }
@@ -279,21 +288,30 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
         }
         ledger.take(entry);
         paced.past(replay.now(), replay.effects());
-        begun |= matches!(entry, JournalEntry::Step(step) if step.event == Some(Event::Begin));
+        if let JournalEntry::Step(step) = entry {
+            begun |= step.event == Some(Event::Begin);
+            has_noticed |= matches!(step.event, Some(Event::Noticed { .. }));
+        }
     }
     if ledger.is_over {
         note("the run is over; nothing is left to do");
         let end = replay.effects().iter().find_map(|effect| match effect {
-            motet_runtime::Effect::Finished(end) => Some(exit_of(end)),
+            motet_runtime::Effect::Finished(end) => Some(end),
             _ => None,
         });
-        return Ok(end.unwrap_or(Exit::Success));
+        // It may have been cut off before it said how it ended.
+        end.iter().for_each(|end| paced.finish(end));
+        return Ok(end.map_or(Exit::Success, |end| exit_of(end)));
     }
     let from = now(head, clock, replay.now());
     // Older journals have no id; the time of their beginning is as good.
     let run = if head.run.is_empty() { format!("{:x}", head.began_unix_ns) } else { head.run.clone() };
     let mut events = if begun { Vec::new() } else { vec![Event::Begin] };
-    events.extend(questions.iter().flat_map(AnsweredQuestions::refused));
+    if let Some(questions) = &questions {
+        // No driver has heard of these goals.
+        ledger.goals.retain(|goal, _| !questions.is_open(*goal));
+        events.extend(questions.refused());
+    }
     let unix_ns = unix_ns();
     let resumed = JournalEntry::Resumed(ResumeEntry { unix_ns, cut_bytes: tail.torn_bytes });
     writer.append(|chain| chain.line(resumed)).and_then(|()| writer.sync()).map_err(journal_error)?;
@@ -304,8 +322,7 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
     note_open(&ledger);
     let goals = count(ledger.goals.len(), "goal");
     note(&format!("resumed at {} after {} entries, {goals} open{cut}", replay.now(), entries.len()));
-    let paced = paced.with_guard(guard);
-    let paced = with_desk(paced, page.as_ref(), opened.flatten(), args, (colors, clock));
+    let has_person = saved.asks();
     let is_simulated = matches!(&saved, SavedDriver::Simulator(_));
     let driver: Box<dyn Driver> = match (saved, simulator) {
         (SavedDriver::Process { address, instance, .. }, _) => {
@@ -320,8 +337,30 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
     };
     let mut driver = driver;
     let engine = replay.into_engine();
+    let sees = driver.capabilities().detections;
+    if guard.is_some() && has_noticed && !sees {
+        guard = None;
+        note("what the robot has seen is lost: deferred motions are left to the driver");
+    }
+    let scene = room.clone().unwrap_or_default();
+    let mut paced = paced.with_guard(guard).with_room(room);
+    if sees {
+        // What is in view counts for the motions that are checked from now on.
+        let seen = driver.detections(from);
+        let noticed = paced.detected(from, &seen, &engine);
+        events.extend(noticed.into_iter().map(|(query, answer)| Event::Noticed { query, answer }));
+    }
+    let paced = with_desk(paced, page.as_ref(), opened.flatten(), args, (colors, clock));
+    let mut asking;
+    let driver: &mut dyn Driver = if has_person {
+        let answers = OperatorAnswers { operator: operator(page.as_ref()), scene: &scene };
+        asking = QuestionDriver::new(&mut *driver, answers, from, jumps(speed, clock));
+        &mut asking
+    } else {
+        &mut *driver
+    };
     let beginning = page.map(|page| (page, Beginning::Entry(entries.len() as u64 + 1)));
-    let runner = Runner { engine, driver: &mut *driver, journal: Some(writer), is_simulated, from, events };
+    let runner = Runner { engine, driver, journal: Some(writer), is_simulated, from, events };
     runner.run(paced, beginning)
 }
 
@@ -335,14 +374,14 @@ fn given_again(saved: SavedDriver, args: &RunArgs) -> Result<SavedDriver, CliErr
             let why = "the run was in the simulator: `--driver` cannot take it over";
             Err(CliError::Message(why.to_owned()))
         }
-        SavedDriver::Process { address, instance, guard } => {
+        SavedDriver::Process { address, instance, guard, asks } => {
             let named = DriverAddress::from(address);
             let given = choice.again(&named).ok_or_else(|| CliError::Advised {
                 problem: "the journal names a driver in another process, and a journal starts none by itself"
                     .to_owned(),
                 help: format!("give it again, if you trust it: {}", escape(&DriverChoice::flag_for(&named))),
             })?;
-            Ok(SavedDriver::process(&given, &instance, guard.map(|guard| *guard)))
+            Ok(SavedDriver::process(&given, &instance, guard.map(|guard| *guard)).with_person(asks))
         }
     }
 }
@@ -389,12 +428,12 @@ fn now(head: &JournalHead, clock: Clock, last: Time) -> Time {
     }
 }
 
-/// World tracker at the beginning of the run; `None`, with a note, if the files of the project are gone or
-/// have changed.
-fn open_course(saved: &SavedProject, report: &mut Report) -> Option<motet_compiler::WorldTracker> {
-    let course = saved.open(report);
+/// Session at the beginning of the run; `None`, with a note, if the files of the project are gone or have
+/// changed.
+fn open_session(saved: &SavedProject, report: &mut Report) -> Option<ProjectSession> {
+    let session = saved.session(report);
     opened_again(
-        course,
+        session,
         "the scene has changed since the run began",
         "deferred motions are left to the driver",
     )

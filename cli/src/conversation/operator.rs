@@ -11,19 +11,20 @@ use std::sync::mpsc::{self, Receiver, RecvTimeoutError, TryRecvError};
 use std::thread;
 use std::time::Duration;
 
-use motet_graph::{Graph, Value};
+use motet_graph::Value;
 use motet_planner::dialogue::{Kind, Person, Problem};
 use motet_project::files::read_small;
 use motet_requests::RequestContext;
 use motet_robots::scene::Scene;
-use motet_runtime::{Capabilities, Command, Driver, DriverEvent, GoalId, Outcome, Query, Time};
-use motet_stdlib::lang::{failures, primitives};
+use motet_runtime::Outcome;
+use motet_stdlib::lang::failures;
 use smol_str::SmolStr;
 
 use super::planner::printable;
 use crate::error::CliError;
 use crate::interrupt::is_interrupted;
 use crate::output::{escape, note};
+use crate::questions::{Answerer, Question};
 use crate::typed_line::{self, LetterReader};
 use crate::view::hub::Hub;
 use crate::view::live::SharedPage;
@@ -40,6 +41,8 @@ pub(crate) enum OperatorInput {
         is_live: bool,
         /// True once no more lines can come.
         is_over: Cell<bool>,
+        /// True while the next line is the answer to a question.
+        is_asked: Cell<bool>,
         /// Reader of letters, at a terminal.
         letters: Option<LetterReader>,
         /// True if lines come from stdin too, not from a page alone.
@@ -83,6 +86,7 @@ impl OperatorInput {
             lines: RefCell::new(lines),
             is_live: true,
             is_over: Cell::new(false),
+            is_asked: Cell::new(false),
             letters: None,
             reads_stdin: false,
             hub: Some(hub),
@@ -109,6 +113,7 @@ impl OperatorInput {
             lines: RefCell::new(lines),
             is_live,
             is_over: Cell::new(false),
+            is_asked: Cell::new(false),
             letters,
             reads_stdin: true,
             hub,
@@ -117,7 +122,10 @@ impl OperatorInput {
 
     /// Line that was typed while the robot moves.
     pub(crate) fn typed(&self) -> Option<String> {
-        let Self::Terminal { lines, is_live: true, is_over, .. } = self else { return None };
+        let Self::Terminal { lines, is_live: true, is_over, is_asked, .. } = self else { return None };
+        if is_asked.get() {
+            return None;
+        }
         match lines.borrow().try_recv() {
             Ok(line) => Some(line).filter(|line| !line.trim().is_empty()),
             Err(TryRecvError::Empty) => None,
@@ -160,6 +168,28 @@ impl OperatorInput {
         }
     }
 
+    /// Answer to a question, once it is there: `Some(None)` if nobody answers, and after Ctrl-C.
+    fn answer(&self) -> Option<Option<String>> {
+        let Self::Terminal { lines, hub, .. } = self else { return Some(self.line(&mut || None)) };
+        loop {
+            match lines.borrow().try_recv() {
+                Ok(line) if line.trim().is_empty() => {}
+                Ok(line) => return Some(Some(line)),
+                Err(TryRecvError::Disconnected) => return Some(None),
+                Err(TryRecvError::Empty) => {
+                    let is_stopped = is_interrupted() || hub.as_ref().is_some_and(|hub| hub.is_stopped());
+                    return is_stopped.then_some(None);
+                }
+            }
+        }
+    }
+
+    fn set_asked(&self, is_now: bool) {
+        if let Self::Terminal { is_asked, .. } = self {
+            is_asked.set(is_now);
+        }
+    }
+
     /// Shows a person at a terminal that it is their turn.
     pub(crate) fn prompt(&self) {
         match self {
@@ -198,18 +228,27 @@ pub(crate) struct OperatorPrompt {
 }
 
 impl OperatorPrompt {
-    /// Asks a question that the page knows by an id.
-    fn ask_as(&self, id: Option<&str>, problem: &Problem) -> Option<String> {
+    /// Shows a question that the page knows by an id.
+    fn begin(&self, id: Option<&str>, problem: &Problem) {
         note(&question(problem));
-        let hub = self.page.as_ref().map(|page| page.borrow().hub());
-        hub.iter().for_each(|hub| hub.ask(id));
+        self.input.set_asked(true);
+        self.tell_page(id);
         self.input.prompt();
-        let answer = self.input.line(&mut || None);
-        hub.iter().for_each(|hub| hub.ask(None));
-        if let Some(answer) = answer.as_deref().filter(|_| !self.input.is_echoed()) {
+    }
+
+    /// Takes the question away again, with its answer.
+    fn end(&self, answer: Option<&str>) {
+        self.input.set_asked(false);
+        self.tell_page(None);
+        if let Some(answer) = answer.filter(|_| !self.input.is_echoed()) {
             note(&format!("> {}", escape(answer)));
         }
-        answer
+    }
+
+    /// Tells the page which question is open.
+    fn tell_page(&self, id: Option<&str>) {
+        let hub = self.page.as_ref().map(|page| page.borrow().hub());
+        hub.iter().for_each(|hub| hub.ask(id));
     }
 }
 
@@ -219,7 +258,9 @@ impl Person for OperatorPrompt {
             .page
             .as_ref()
             .map(|page| page.borrow_mut().question(&printable(&problem.question), &problem.options));
-        let answer = self.ask_as(id.as_deref(), problem);
+        self.begin(id.as_deref(), problem);
+        let answer = self.input.line(&mut || None);
+        self.end(answer.as_deref());
         if let (Some(page), Some(id)) = (&self.page, &id) {
             page.borrow_mut().answered(id, answer.as_deref());
         }
@@ -227,134 +268,51 @@ impl Person for OperatorPrompt {
     }
 }
 
-/// Driver that answers `ask` and `choose` by the operator, and leaves everything else to the robot's driver.
-pub(crate) struct AskingDriver<'a> {
-    driver: &'a mut dyn Driver,
-    operator: OperatorPrompt,
+/// Operator who answers the questions of a policy while it runs.
+pub(crate) struct OperatorAnswers<'a> {
+    pub(crate) operator: OperatorPrompt,
     /// Things that a choice may name.
-    scene: &'a Scene,
-    /// Events of questions, which are answered at once.
-    outbox: VecDeque<(Time, DriverEvent)>,
+    pub(crate) scene: &'a Scene,
 }
 
-impl<'a> AskingDriver<'a> {
-    pub(crate) fn new(driver: &'a mut dyn Driver, operator: OperatorPrompt, scene: &'a Scene) -> Self {
-        Self { driver, operator, scene, outbox: VecDeque::new() }
-    }
-
-    /// Id of the question of a goal on the page.
-    fn id(&self, goal: GoalId) -> Option<String> {
-        self.operator.page.as_ref().map(|page| format!("{}:{goal}", page.borrow().run()))
-    }
-
-    /// Asks for one of several things. Fails with `refused` if the answer names none of them, and with
-    /// `ambiguous` if it names several.
-    fn choose(&mut self, goal: GoalId, problem: &Problem) -> Outcome {
-        let answer = self.operator.ask_as(self.id(goal).as_deref(), problem);
-        let situation = RequestContext::new(self.scene);
-        let chosen = answer.map(|answer| motet_requests::choose(&answer, &problem.options, &situation));
-        let mut chosen = chosen.unwrap_or_default();
-        chosen.retain(|thing| problem.options.contains(thing));
+impl OperatorAnswers<'_> {
+    /// One of several things. Fails with `refused` if the answer names none of them, and with `ambiguous` if
+    /// it names several.
+    fn chosen(&self, answer: &str, options: &[SmolStr]) -> Outcome {
+        let mut chosen = motet_requests::choose(answer, options, &RequestContext::new(self.scene));
+        chosen.retain(|thing| options.contains(thing));
         match chosen.as_slice() {
             [] => Outcome::Failure(failures::REFUSED.into()),
             [only] => Outcome::Success(Some(Value::Entity(only.clone()))),
             [_, _, ..] => Outcome::Failure(failures::AMBIGUOUS.into()),
         }
     }
-
-    fn ask(&mut self, goal: GoalId, problem: &Problem) -> Outcome {
-        match self.operator.ask_as(self.id(goal).as_deref(), problem) {
-            Some(answer) => Outcome::Success(Some(Value::Text(answer.into()))),
-            None => Outcome::Failure(failures::REFUSED.into()),
-        }
-    }
 }
 
-/// Things among which a command lets a person choose; none for other commands.
-fn options(command: &Command) -> Option<Vec<SmolStr>> {
-    let Some(Value::List(among)) = command.arg("among").filter(|_| command.primitive == primitives::CHOOSE)
-    else {
-        return None;
-    };
-    let id = |value: &Value| if let Value::Entity(id) = value { Some(id.clone()) } else { None };
-    among.iter().map(id).collect()
-}
-
-impl Driver for AskingDriver<'_> {
-    fn start(&mut self, now: Time, goal: GoalId, command: &Command) {
-        let Some(Value::Text(question)) = command.arg("question") else {
-            return self.driver.start(now, goal, command);
-        };
-        let mut problem = Problem {
+impl Answerer for OperatorAnswers<'_> {
+    fn ask(&mut self, question: &Question) {
+        let id = self.operator.page.as_ref().map(|page| format!("{}:{}", page.borrow().run(), question.goal));
+        let problem = Problem {
             kind: Kind::AmbiguousTask,
-            question: printable(question),
-            options: Vec::new(),
+            question: printable(&question.text),
+            options: question.options.clone().unwrap_or_default(),
             about: None,
             said: None,
         };
-        let outcome = if let Some(options) = options(command) {
-            problem.options = options;
-            self.choose(goal, &problem)
-        } else if command.primitive == primitives::ASK {
-            self.ask(goal, &problem)
-        } else {
-            return self.driver.start(now, goal, command);
-        };
-        self.outbox.push_back((now, DriverEvent::Acknowledged { goal }));
-        self.outbox.push_back((now, DriverEvent::Ended { goal, outcome }));
+        self.operator.begin(id.as_deref(), &problem);
     }
 
-    fn begin_run(&mut self, now: Time, run: &str, graph: Option<&Graph>) -> Time {
-        // Goals of the run before have the same numbers.
-        self.outbox.clear();
-        self.driver.begin_run(now, run, graph)
+    fn outcome(&mut self, question: &Question) -> Option<Outcome> {
+        let answer = self.operator.input.answer()?;
+        self.operator.end(answer.as_deref());
+        Some(match (answer, &question.options) {
+            (None, _) => Outcome::Failure(failures::REFUSED.into()),
+            (Some(answer), Some(options)) => self.chosen(&answer, options),
+            (Some(answer), None) => Outcome::Success(Some(Value::Text(answer.into()))),
+        })
     }
 
-    fn cancel(&mut self, now: Time, goal: GoalId) {
-        self.driver.cancel(now, goal);
-    }
-
-    fn capabilities(&self) -> Capabilities {
-        self.driver.capabilities()
-    }
-
-    fn base(&self) -> Option<[f64; 3]> {
-        self.driver.base()
-    }
-
-    fn update(&mut self, now: Time, goal: GoalId, command: &Command) {
-        self.driver.update(now, goal, command);
-    }
-
-    fn hold(&mut self, now: Time, goal: GoalId) {
-        self.driver.hold(now, goal);
-    }
-
-    fn proceed(&mut self, now: Time, goal: GoalId) {
-        self.driver.proceed(now, goal);
-    }
-
-    fn safe_stop(&mut self, now: Time, goal: GoalId) {
-        self.driver.safe_stop(now, goal);
-    }
-
-    fn observe(&mut self, now: Time, query: &Query) {
-        self.driver.observe(now, query);
-    }
-
-    fn watch(&mut self, now: Time, query: &Query) {
-        self.driver.watch(now, query);
-    }
-
-    fn unwatch(&mut self, now: Time, query: &Query) {
-        self.driver.unwatch(now, query);
-    }
-
-    fn advance(&mut self, until: Time) -> Option<(Time, DriverEvent)> {
-        self.outbox.pop_front().or_else(|| self.driver.advance(until))
-    }
-
-    fn inner(&mut self) -> Option<&mut dyn Driver> {
-        Some(&mut *self.driver)
+    fn withdraw(&mut self) {
+        self.operator.end(None);
     }
 }

@@ -80,7 +80,8 @@ impl RecordFiles {
         if let (Some(line), Value::Object(more)) = (line.as_object_mut(), more) {
             line.extend(more);
         }
-        if let Err(source) = writeln!(self.talk, "{line}") {
+        // At once, so that a process that is killed leaves no half of a line.
+        if let Err(source) = self.talk.write_all(format!("{line}\n").as_bytes()) {
             self.error.get_or_insert(CliError::Write { path: self.folder.join("talk.jsonl"), source });
         }
     }

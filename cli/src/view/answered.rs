@@ -37,7 +37,7 @@ impl AnsweredQuestions {
     fn step(&mut self, step: &StepEntry) -> StepEntry {
         let event = match &step.event {
             Some(Event::Driver(report)) if report.goal().is_some_and(|goal| self.goals.contains(&goal)) => {
-                if let DriverEvent::Ended { goal, .. } = report {
+                if let DriverEvent::Ended { goal, .. } | DriverEvent::Stopped { goal } = report {
                     self.goals.remove(goal);
                 }
                 // Time passes all the same.
@@ -55,12 +55,20 @@ impl AnsweredQuestions {
                 Effect::Start { goal, command, .. } if is_question(command) => {
                     self.goals.insert(*goal);
                 }
-                Effect::Cancel { goal } | Effect::Hold { goal } | Effect::Proceed { goal }
+                Effect::Cancel { goal }
+                | Effect::Hold { goal }
+                | Effect::Proceed { goal }
+                | Effect::SafeStop { goal }
                     if self.goals.contains(goal) => {}
                 effect => kept.push(effect.clone()),
             }
         }
         kept
+    }
+
+    /// True for the goal of a question that nobody has answered.
+    pub(crate) fn is_open(&self, goal: GoalId) -> bool {
+        self.goals.contains(&goal)
     }
 
     /// Ends of the questions that nobody has answered: the person who was asked is gone.

@@ -212,12 +212,12 @@ impl Hub {
         locked(&self.operator).desk = Some(desk);
     }
 
-    /// Offers a policy that is to take over; what becomes of it arrives in the receiver.
-    pub(crate) fn offer(&self, policy: String) -> Result<Receiver<SwapResult>, NotTaken> {
+    /// Offers a policy that is to take over until some time; what becomes of it arrives in the receiver.
+    pub(crate) fn offer(&self, policy: String, until: Instant) -> Result<Receiver<SwapResult>, NotTaken> {
         let (reply, result) = channel();
         let operator = locked(&self.operator);
         let desk = operator.desk.as_ref().ok_or(NotTaken::Nobody)?;
-        desk.send(Offer { policy, reply }).map_err(|_| NotTaken::Nobody)?;
+        desk.send(Offer { policy, reply, until }).map_err(|_| NotTaken::Nobody)?;
         Ok(result)
     }
 

@@ -116,7 +116,10 @@ impl LivePage {
 
     /// Takes in the head of a run.
     pub(crate) fn begin(&mut self, head: JournalEntry) {
-        self.hub.begin();
+        // A wish from before the first run is for that one.
+        if self.feed.run > 0 {
+            self.hub.begin();
+        }
         self.entry(0, &head);
     }
 

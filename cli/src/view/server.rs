@@ -8,7 +8,7 @@ use std::net::SocketAddr;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use axum::extract::{DefaultBodyLimit, Query, Request, State};
 use axum::http::header::{CACHE_CONTROL, CONTENT_SECURITY_POLICY, CONTENT_TYPE, HeaderName};
@@ -38,6 +38,8 @@ const MOST_QUESTION_BYTES: usize = 3 * 1024 * 1024;
 /// The most bytes of a policy that is to take over, and the time for its check and the swap.
 const MOST_POLICY_BYTES: usize = 1024 * 1024;
 const SWAPS: Duration = Duration::from_secs(30);
+/// Time for the answer to arrive, at whose end a policy takes over no more.
+const ANSWERS: Duration = Duration::from_millis(500);
 /// Most letters of a line.
 const MOST_LETTERS: usize = 2_000;
 /// Items that go out together.
@@ -335,7 +337,7 @@ async fn swap(State(shared): State<Arc<Shared>>, headers: HeaderMap, policy: Str
     if !allowed(&shared, &headers) {
         return refused(Refusal::Token);
     }
-    let Ok(result) = shared.hub.offer(policy) else {
+    let Ok(result) = shared.hub.offer(policy, Instant::now() + SWAPS - ANSWERS) else {
         return (StatusCode::CONFLICT, "this run takes no other policy").into_response();
     };
     let answered = tokio::task::spawn_blocking(move || result.recv_timeout(SWAPS)).await;

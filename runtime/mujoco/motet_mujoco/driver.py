@@ -77,7 +77,7 @@ class Driver:
     def __init__(self, model, command, options, oracle=False, walks=(), says=(), told=None):
         self.model, self.command, self.options, self.room = model, command, options, told
         self.oracle, self.walks, self.says = oracle, list(walks), list(says)
-        self.instance = "%d-%d" % (os.getpid(), time.time_ns())
+        self.instance, self.forgets = "%d-%d" % (os.getpid(), time.time_ns()), 0
         self.say = lambda message: None
         self.run, self.protocol, self.has_clock, self.is_greeted = None, 2, False, False
         self.declared, self.offset, self.given = {}, 0.0, []
@@ -119,6 +119,8 @@ class Driver:
         if self.run is not None and run != self.run or run is None:
             self.stop_all()
             self.goals, self.watched = {}, []
+            # Who knew the driver before is not to take a forgotten goal for one that never began.
+            self.forgets += 1
         self.run, self.protocol = run, version
         if params.get("state") and not params.get("resumed"):
             self.begin(params["state"])
@@ -130,7 +132,7 @@ class Driver:
         if version >= 2:
             capabilities.update({"clock": "driver", "moved": True, "look": True, "detections": True, "told": True,
                                  "state": True})
-        return {"protocol": version, "driver": "motet_mujoco 0.1.0", "instance": self.instance,
+        return {"protocol": version, "driver": "motet_mujoco 0.1.0", "instance": "%s-%d" % (self.instance, self.forgets),
                 "capabilities": capabilities}
 
     def begin(self, state):

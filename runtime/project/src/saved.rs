@@ -5,7 +5,6 @@ use std::net::SocketAddr;
 use std::path::PathBuf;
 
 use indexmap::IndexMap;
-use motet_compiler::WorldTracker;
 use motet_host::remote::DriverAddress;
 use motet_robots::clearance::ClearanceOverride;
 use motet_robots::{card, scene};
@@ -30,6 +29,9 @@ pub enum SavedDriver {
         instance: String,
         #[serde(default)]
         guard: Option<Box<SavedProject>>,
+        /// True if a person answered the questions of the policy, not the driver.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        asks: bool,
     },
 }
 
@@ -102,19 +104,23 @@ impl SavedDriver {
         }))
     }
 
-    /// The same with a person who answers the questions of the policy.
+    /// The same, and whether a person answers the questions of the policy.
     #[must_use]
-    pub fn with_person(mut self) -> Self {
-        if let Self::Simulator(saved) = &mut self {
-            saved.asks = true;
+    pub fn with_person(mut self, has_person: bool) -> Self {
+        match &mut self {
+            Self::Simulator(saved) => saved.asks = has_person,
+            Self::Process { asks, .. } => *asks = has_person,
         }
         self
     }
 
-    /// True if a person answered the questions of the policy, not the simulated one.
+    /// True if a person answered the questions of the policy, not the simulated one or the driver.
     #[must_use]
     pub fn asks(&self) -> bool {
-        matches!(self, Self::Simulator(saved) if saved.asks)
+        match self {
+            Self::Simulator(saved) => saved.asks,
+            Self::Process { asks, .. } => *asks,
+        }
     }
 
     /// Description of a driver process.
@@ -124,7 +130,8 @@ impl SavedDriver {
             DriverAddress::Command(words) => SavedAddress::Command(words.clone()),
             DriverAddress::Tcp(socket) => SavedAddress::Tcp(*socket),
         };
-        Self::Process { address, instance: instance.to_owned(), guard: project.map(Box::new) }
+        let guard = project.map(Box::new);
+        Self::Process { address, instance: instance.to_owned(), guard, asks: false }
     }
 
     /// Project in which motions are checked during the run.
@@ -250,15 +257,6 @@ impl SavedProject {
             effort: inputs.effort?,
             clearance: inputs.clearance,
         })
-    }
-
-    /// World tracker at the beginning of the run; `None` if the scene has changed since then.
-    ///
-    /// # Errors
-    ///
-    /// A file is gone, or has errors now.
-    pub fn open(&self, sink: &mut dyn DiagnosticSink) -> Result<Option<WorldTracker>, ProjectError> {
-        Ok(self.session(sink)?.and_then(|opened| opened.session.world_tracker()))
     }
 
     /// Session at the beginning of the run; `None` if the scene has changed since then.

@@ -1,5 +1,7 @@
 //! `motet dataset from-journal`: rows from recorded conversations.
 
+use std::fs;
+use std::io::{Read as _, Seek as _, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -96,9 +98,19 @@ fn read(folder: &Path, plans: &mut Vec<RecordedPlan>) -> Result<(), CliError> {
     let mut request: Option<String> = None;
     let mut files: Vec<String> = Vec::new();
     let mut is_first = true;
+    // A process that was killed may leave a last line that is torn.
+    let mut torn: Option<CliError> = None;
     lines(&path, &mut |number, line| {
-        let event: Value =
-            serde_json::from_str(line).map_err(|error| wrong(number, &format!("it is not JSON: {error}")))?;
+        if let Some(torn) = torn.take() {
+            return Err(torn);
+        }
+        let event: Value = match serde_json::from_str(line) {
+            Ok(event) => event,
+            Err(error) => {
+                torn = Some(wrong(number, &format!("it is not JSON: {error}")));
+                return Ok(Flow::Continue);
+            }
+        };
         let text = |key: &str| event.get(key).and_then(Value::as_str).map(ToOwned::to_owned);
         let what = text("what").ok_or_else(|| wrong(number, "it is no event: it has no `what`"))?;
         match what.as_str() {
@@ -123,5 +135,18 @@ fn read(folder: &Path, plans: &mut Vec<RecordedPlan>) -> Result<(), CliError> {
             _ => {}
         }
         Ok(Flow::Continue)
-    })
+    })?;
+    match torn {
+        Some(torn) if ends_with_line(&path) => Err(torn),
+        Some(_) | None => Ok(()),
+    }
+}
+
+/// True if the last line of a file has its end.
+fn ends_with_line(path: &Path) -> bool {
+    let last = |mut file: fs::File| {
+        let mut byte = [0];
+        file.seek(SeekFrom::End(-1)).and_then(|_| file.read_exact(&mut byte)).map(|()| byte)
+    };
+    fs::File::open(path).and_then(last).is_ok_and(|byte| byte == *b"\n")
 }

@@ -18,12 +18,13 @@ use motet_runtime::{Driver, Time};
 use super::answer::Refusal;
 use super::checker::{Checked, Checker};
 use super::narration;
-use super::question::QuestionDriver;
+use super::question::Client;
 use super::run_table::{ReplySender, RunEnding, RunTable};
 use super::situation::{Situation, Situations, StderrSink};
 use super::watch::RunWatch;
 use crate::error::CliError;
 use crate::flags::{DriverArgs, EnvironmentArgs, Speed};
+use crate::questions::QuestionDriver;
 use crate::ready_driver::{ReadyDriver, RunSubject, open_driver};
 
 /// Interval at which the driver is looked after between runs.
@@ -154,7 +155,7 @@ impl Robot<'_, '_> {
         }
         let before = self.talk.begin();
         let jumps = self.speed == Speed::Max;
-        let mut driver = QuestionDriver::new(&mut *self.driver, (runs, run), from, jumps);
+        let mut driver = QuestionDriver::new(&mut *self.driver, Client::new(runs, run), from, jumps);
         let mut watch =
             RunWatch::new(&mut self.talk, (project, &self.checker), (runs, run), guard, self.speed);
         let (end, error) = watch.run(&mut engine, &mut driver, journal, from);

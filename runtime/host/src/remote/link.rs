@@ -1,7 +1,9 @@
 //! Lines to and from a driver. Two threads read and write, so that a driver that does not listen holds up
 //! nobody.
 
-use super::protocol::{MAX_BREACHES, MAX_LINE_BYTES, MAX_LINES_A_SECOND, MAX_LOOK_BYTES, MAX_WAITING};
+use super::protocol::{
+    MAX_BEFORE_ANSWER, MAX_BREACHES, MAX_LINE_BYTES, MAX_LINES_A_SECOND, MAX_LOOK_BYTES, MAX_WAITING,
+};
 use motet_runtime::Time;
 use std::fmt;
 use std::io::{self, BufRead, BufReader, Read, Write};
@@ -31,6 +33,8 @@ pub enum LinkError {
     Flood,
     /// It said more lines in a second than are read.
     Hasty,
+    /// It said more before an answer than is kept.
+    Crowded,
     /// It broke more promises than are borne.
     Faithless,
     /// It said a line that is no message; the beginning of the line, and why.
@@ -55,6 +59,9 @@ impl fmt::Display for LinkError {
                 write!(f, "the driver said a line of more than {MAX_LINE_BYTES} bytes, or a larger picture")
             }
             Self::Hasty => write!(f, "the driver said more than {MAX_LINES_A_SECOND} lines in a second"),
+            Self::Crowded => {
+                write!(f, "the driver said more than {MAX_BEFORE_ANSWER} things before it answered a call")
+            }
             Self::Faithless => write!(f, "the driver broke its promises more than {MAX_BREACHES} times"),
             Self::Nonsense(line, why) => write!(f, "the driver said `{line}`, which is no message: {why}"),
             Self::Greeting(why) => write!(f, "the driver did not answer the greeting: {why}"),

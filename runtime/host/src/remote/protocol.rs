@@ -477,6 +477,9 @@ pub(crate) const MAX_LINES_A_SECOND: u32 = 20_000;
 pub(crate) const MAX_BREACHES: u32 = 1_000;
 /// The most lines that wait to be heard, and the most that wait to be said.
 pub(crate) const MAX_WAITING: usize = 1_024;
+
+/// The most reports of a driver between a call and its answer.
+pub(crate) const MAX_BEFORE_ANSWER: usize = 16 * MAX_WAITING;
 /// Greatest nesting depth of a driver's message, so that a journal with it can be read again.
 pub(crate) const MAX_DEPTH: usize = 32;
 /// The most characters of a feedback that are kept.

@@ -4,7 +4,7 @@
 use super::super::link::LinkError;
 use super::super::protocol::{
     AdvanceParams, AdvanceResult, Detections, DriverCall, DriverMessage, EmptyParams, LookParams, LookResult,
-    PIECE, QueryParams, QueryResult, RpcError, StatusParams, StatusResult, hear,
+    MAX_BEFORE_ANSWER, PIECE, QueryParams, QueryResult, RpcError, StatusParams, StatusResult, hear,
 };
 use super::run_time::RunTime;
 use super::{LineFrom, RemoteDriver, nonsense};
@@ -80,6 +80,10 @@ impl RemoteDriver {
         let due = Instant::now() + within;
         while let Some(left) = due.checked_duration_since(Instant::now()) {
             let link = self.link.as_ref().ok_or(LinkError::Closed)?;
+            if self.outbox.len() >= MAX_BEFORE_ANSWER {
+                self.broke(&LinkError::Crowded);
+                return Err(LinkError::Crowded);
+            }
             let line = match link.hear(left) {
                 Ok(Some(line)) => line,
                 Ok(None) => break,
@@ -106,6 +110,12 @@ impl RemoteDriver {
         while self.waiting.contains_key(&asked) {
             let Some(link) = &self.link else { return };
             let left = due.saturating_duration_since(Instant::now());
+            if left.is_zero() {
+                return self.broke(&LinkError::Silent(self.patience.step));
+            }
+            if self.outbox.len() >= MAX_BEFORE_ANSWER {
+                return self.broke(&LinkError::Crowded);
+            }
             match link.hear(left) {
                 Ok(Some(line)) => self.hear_line(&line),
                 Ok(None) => self.broke(&LinkError::Silent(self.patience.step)),
