@@ -1,6 +1,8 @@
 //! Replays of a journal: the engine goes through it again, and its effects are compared with those of the
 //! run.
 
+use std::fmt::Write as _;
+
 use motet_runtime::journal::{EffectMismatch, EngineReplay, JournalEntry, ReplayError};
 use motet_runtime::{Snapshot, Time};
 
@@ -132,4 +134,30 @@ impl JournalPlayer {
         })
         .to_string()
     }
+}
+
+/// State of the engine, for people.
+#[must_use]
+pub fn described(state: &Snapshot) -> String {
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    let _ = writeln!(text, "`{}` at {}, revision {}", state.policy, state.at, state.revision);
+    for (fact, holds) in state.state() {
+        let word = match holds {
+            Some(true) => "true",
+            Some(false) => "false",
+            None => "unknown",
+        };
+        let _ = writeln!(text, "  {fact}: {word}");
+    }
+    for motet_runtime::Reading { query, value, at } in &state.readings {
+        let _ = writeln!(text, "  {query} = {value}, read at {at}");
+    }
+    for (name, value) in &state.bindings {
+        let _ = writeln!(text, "  let {name} = {value}");
+    }
+    for live in &state.goals {
+        let _ = writeln!(text, "  runs {} {} ({})", live.goal, live.command, live.path);
+    }
+    text
 }

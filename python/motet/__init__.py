@@ -63,6 +63,10 @@ __all__ = [
 ]
 
 
+def __dir__() -> list[str]:
+    return sorted({*globals(), *_COMPILED})
+
+
 def __getattr__(name: str) -> object:
     if name not in _COMPILED:
         raise AttributeError(f"module 'motet' has no attribute {name!r}")

@@ -20,7 +20,7 @@ from __future__ import annotations
 
 import asyncio
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -195,7 +195,8 @@ class Driver:
     first `await`, to refuse. An observation returns a bool for a fact, a number in SI units for a measure, None for unknown.
 
     `can_hold` and `can_update` are "all" or the primitives whose goals can be held, or take new arguments while they run.
-    Hold with `goal.sleep` or `goal.proceeding`. `owns_clock` is for simulators: time passes only in `asyncio.sleep`.
+    Hold with `goal.sleep` or `goal.proceeding`. `owns_clock` is for simulators: time passes only in `goal.sleep` and
+    `asyncio.sleep`.
     """
 
     name: str = ""
@@ -254,6 +255,31 @@ class Driver:
         own = getattr(Driver, python_name(primitive), None)
         is_own = own is not None and getattr(method, "__func__", None) is own
         return method if inspect.iscoroutinefunction(method) and not is_own else self.perform
+
+    def _performs(self, primitive: str) -> bool:
+        """True if the driver has a way to carry a primitive out."""
+        return self._performer(primitive) != self.perform or type(self).perform is not Driver.perform
+
+    def _unfit(self, calls: Mapping[str, tuple[str, ...]]) -> list[str]:
+        """What keeps the driver from carrying out some primitives with these parameters, each in a clause."""
+        unfit = []
+        for primitive, params in calls.items():
+            names = [python_name(name) for name in params]
+            method = self._performer(primitive)
+            if not self._performs(primitive):
+                unfit.append(f"it has no `async def {python_name(primitive)}({', '.join(['self', 'goal', *names])})`")
+                continue
+            try:
+                inspect.signature(method).bind(None, **dict.fromkeys(names))
+            except TypeError as wrong:
+                unfit.append(f"its `{python_name(primitive)}` does not take `goal, {', '.join(names)}`: {wrong}")
+        return unfit
+
+    def _unobserved(self, names: Iterable[str]) -> list[str]:
+        """Facts and measures of which the driver knows nothing."""
+        if type(self).observe is not Driver.observe:
+            return []
+        return [name for name in names if self._observer(name) is None]
 
     def _observer(self, name: str) -> Callable[..., Any] | None:
         for key in dir(type(self)):

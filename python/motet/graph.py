@@ -32,6 +32,32 @@ class Graph:
         """The name of the policy."""
         return self._native.policy
 
+    @property
+    def calls(self) -> dict[str, tuple[str, ...]]:
+        """The primitives that the policy calls, each with the names of its parameters.
+
+        >>> import motet
+        >>> motet.compile('policy greet for hsr { say("Hello!") done }').calls
+        {'say': ('text',)}
+        """
+        graph = self.to_dict()
+        return {one["name"]: tuple(param["name"] for param in one["params"]) for one in graph["primitives"]}
+
+    @property
+    def asks(self) -> frozenset[str]:
+        """The facts and measures of which the run asks the robot: those of conditions and monitors, and of the needs that the
+        check has left to the run.
+
+        >>> import motet
+        >>> graph = motet.compile("policy get for hsr { go(mug_1) pick(mug_1) done }", scene="kitchen")
+        >>> "visible" in graph.asks, "near" in graph.asks
+        (True, False)
+        """
+        graph = self.to_dict()
+        found: set[str] = set()
+        _asked(graph["nodes"], graph, found)
+        return frozenset(found)
+
     def to_json(self) -> str:
         """The graph in its versioned JSON encoding, which a robot's own computer runs."""
         return self._native.json()
@@ -64,3 +90,23 @@ class Graph:
 
     def _repr_svg_(self) -> str:
         return outline(self.tree())
+
+
+#: Parts of a node that say what it does, not what it asks.
+_DEEDS = frozenset(("effects", "unsettles", "motion", "leaves"))
+
+
+def _asked(part: Any, graph: dict[str, Any], found: set[str]) -> None:
+    """Collects the facts and measures that a part of a graph asks for."""
+    if isinstance(part, list):
+        for item in part:
+            _asked(item, graph, found)
+    if not isinstance(part, dict) or ("condition" in part and part.get("verdict", "deferred") != "deferred"):
+        return
+    for key, value in part.items():
+        if key == "fact" and isinstance(value, dict) and graph["fluents"][value["fluent"]]["observable"]:
+            found.add(graph["fluents"][value["fluent"]]["name"])
+        if key == "measure" and isinstance(value, dict):
+            found.add(graph["measures"][value["measure"]]["name"])
+        if key not in _DEEDS:
+            _asked(value, graph, found)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import threading
+import warnings
 from collections import OrderedDict
 from collections.abc import Callable, Iterable
 from math import inf
@@ -170,20 +171,29 @@ class Project:
         """Checks a policy and runs it on a driver in this process, to its end.
 
         The driver has a thread of its own; an interrupt stops the run. `say` gets its feedback for people. `record` is the
-        folder of a journal. Raises `motet.PolicyError` if the check refuses the policy, and `motet.InputError`.
+        folder of a journal, which must be empty or not be there. Warns of facts that the policy asks for and the driver does not
+        observe: they are unknown, and a step that needs one fails.
+
+        Raises `motet.PolicyError` if the check refuses the policy, and `motet.InputError`, before anything moves, if the driver
+        has no coroutine for a primitive of the policy.
         """
+        graph = self.compile(policy, choose=choose, name=name)
+        unfit = driver._unfit(graph.calls)
+        if unfit:
+            raise InputError("the driver cannot carry the policy out: " + "; ".join(unfit))
+        for fact in sorted(driver._unobserved(graph.asks)):
+            text = f"the policy asks for `{fact}`, and the driver has no method of that name: it is unknown"
+            warnings.warn(text, stacklevel=2)
         stream = ServedStream(driver)
         try:
-            done, findings = self._native.drive(
-                *document(policy, name),
-                choose,
+            run = graph._native.drive(
                 serve=stream.serve,
                 say=say if say is not None else _nobody,
                 record=None if record is None else name_or_json(record),
             )
         finally:
             stream.join()
-        return _run(done, Report(findings))
+        return Run(run, graph, graph.report)
 
 
 def _nobody(text: str) -> None:

@@ -42,7 +42,11 @@ class Replay:
     """A journal after the engine went through it again.
 
     `entries` and `effects` are the numbers of those compared, `at` is the time of the last in s, `difference` the first one that
-    differs or None, `state` the engine's state there or None, `verdict` the result for people.
+    differs or None, `verdict` the result for people.
+
+    `state` is the engine's state after the last entry, as `motet replay --json` has it (its times are in ns), and `text` the same
+    for people: facts, readings, bindings, and the goals that run. They are None and empty if `motet.replay` goes to the end.
+    `print` shows the text and the verdict.
     """
 
     entries: int
@@ -51,17 +55,21 @@ class Replay:
     difference: Mapping[str, Any] | None
     state: Mapping[str, Any] | None
     verdict: str
+    text: str = ""
 
     @property
     def is_identical(self) -> bool:
         """True if the engine did again all that it had done."""
         return self.difference is None
 
+    def __str__(self) -> str:
+        return self.text + self.verdict
+
     @classmethod
-    def _of(cls, native: tuple[str, str]) -> Replay:
-        verdict, record = native[0], json.loads(native[1])
+    def _of(cls, native: tuple[str, str, str]) -> Replay:
+        verdict, text, record = native[0], native[1], json.loads(native[2])
         at = record["at"] / 1e9
-        return cls(record["entries"], record["effects"], at, record["difference"], record["state"], verdict)
+        return cls(record["entries"], record["effects"], at, record["difference"], record["state"], verdict, text)
 
 
 def replay(
@@ -109,7 +117,7 @@ class Run(Sequence[Event]):
 
     @property
     def why(self) -> str | None:
-        """The reason for the end, in words, or None."""
+        """The reason for the end, in words, or None: that of the driver, or the need that a step lacked."""
         found = self.events[-1].more.get("why")
         return None if found is None else str(found)
 

@@ -6,7 +6,7 @@ use motet::host::remote::protocol::Hello;
 use motet::host::remote::{DriverTimeouts, RemoteDriver};
 use motet::planner::runtime_check::CheckMode;
 use motet::project::{SimulationInputs, read_profile, read_scene};
-use motet::replay::{JournalPlayer, Moment};
+use motet::replay::{JournalPlayer, Moment, described};
 use motet::run::{RecordedRun, RunPlan, recorded, remote_settings, run_id, simulator, state_facts};
 use motet::runtime::journal::JournalEntry;
 use motet::runtime::{Driver as _, DriverClock, EngineSettings, RunControl, Time};
@@ -33,10 +33,10 @@ impl Run {
         self.events.iter().flat_map(|line| [line.as_str(), "\n"]).collect()
     }
 
-    /// Replay to a time in s, to the entry with a number, or to the end: the verdict for people, and a JSON
-    /// object.
+    /// Replay to a time in s, to the entry with a number, or to the end: the verdict and the state for people,
+    /// and a JSON object.
     #[pyo3(signature = (at, entry))]
-    fn replay(&self, py: Python<'_>, at: Option<f64>, entry: Option<u64>) -> PyResult<(String, String)> {
+    fn replay(&self, py: Python<'_>, at: Option<f64>, entry: Option<u64>) -> PyResult<Replayed> {
         let mut player = JournalPlayer::until(moment(at, entry)?);
         py.detach(|| {
             for (seq, entry) in (0..).zip(&self.journal) {
@@ -47,7 +47,10 @@ impl Run {
     }
 }
 
-/// Replay of the journal in a folder: the verdict for people, and a JSON object.
+/// Verdict and state for people, and a JSON object.
+type Replayed = (String, String, String);
+
+/// Replay of the journal in a folder: the verdict and the state for people, and a JSON object.
 #[pyfunction]
 #[pyo3(signature = (folder, at, entry))]
 pub(crate) fn replay(
@@ -55,7 +58,7 @@ pub(crate) fn replay(
     folder: PathBuf,
     at: Option<f64>,
     entry: Option<u64>,
-) -> PyResult<(String, String)> {
+) -> PyResult<Replayed> {
     let last = moment(at, entry)?;
     let mut player = JournalPlayer::until(last);
     let read = py.detach(|| motet::host::journal::read(&folder, &mut |seq, entry| player.take(seq, &entry)));
@@ -63,10 +66,10 @@ pub(crate) fn replay(
     replayed(&player, last.is_some())
 }
 
-fn replayed(player: &JournalPlayer, has_state: bool) -> PyResult<(String, String)> {
+fn replayed(player: &JournalPlayer, has_state: bool) -> PyResult<Replayed> {
     player.require().map_err(wrong)?;
     let state = player.state().filter(|_| has_state);
-    Ok((player.verdict(), player.json(state.as_ref())))
+    Ok((player.verdict(), state.as_ref().map(described).unwrap_or_default(), player.json(state.as_ref())))
 }
 
 fn moment(at: Option<f64>, entry: Option<u64>) -> PyResult<Option<Moment>> {
@@ -125,27 +128,25 @@ impl Project {
         Ok((Some((run, prepared)), findings))
     }
 
-    /// Checks a policy and runs it on a driver. `serve` gets the number of a socket and starts to serve it on
-    /// a thread of its own; `say` gets what the driver says to people.
-    #[expect(clippy::too_many_arguments, reason = "most are keywords")]
-    #[pyo3(signature = (name, document, policy, *, serve, say, record))]
+}
+
+#[pymethods]
+impl Graph {
+    /// Runs the policy on a driver. `serve` gets the number of a socket and starts to serve it on a thread of
+    /// its own; `say` gets what the driver says to people.
+    #[pyo3(signature = (*, serve, say, record))]
     fn drive(
         &self,
         py: Python<'_>,
-        name: &str,
-        document: Option<&[u8]>,
-        policy: Option<String>,
         serve: &Bound<'_, PyAny>,
         say: Py<PyAny>,
         record: Option<PathBuf>,
-    ) -> PyResult<(Option<(Run, Graph)>, Findings)> {
-        let (prepared, findings) = self.compile(py, name, document, policy)?;
-        let Some(prepared) = prepared else { return Ok((None, findings)) };
+    ) -> PyResult<Run> {
         let (own, theirs) = std::os::unix::net::UnixStream::pair().map_err(wrong)?;
         serve.call1((std::os::fd::IntoRawFd::into_raw_fd(theirs),))?;
         let run = py.detach(|| {
-            let (opened, run) = (&prepared.opened, run_id());
-            let hello = Hello { state: state_facts(opened), ..Hello::of(&prepared.graph, &run) };
+            let (opened, run) = (&self.opened, run_id());
+            let hello = Hello { state: state_facts(opened), ..Hello::of(&self.graph, &run) };
             let log = Box::new(move |text: &str| {
                 // A listener that fails does not stop the robot.
                 let _ = Python::attach(|py| say.call1(py, PyTuple::new(py, [text])?));
@@ -159,7 +160,7 @@ impl Project {
             };
             let plan = RunPlan {
                 opened,
-                graph: &prepared.graph,
+                graph: &self.graph,
                 run: &run,
                 verifies,
                 settings: remote_settings(),
@@ -168,8 +169,7 @@ impl Project {
             };
             followed(&plan, &mut driver)
         });
-        let run = finished(py, run)?;
-        Ok((Some((run, prepared)), findings))
+        finished(py, run)
     }
 }
 

@@ -122,6 +122,49 @@ def test_drive_tells_failures_of_the_driver():
         motet.drive(GREET, Broken())
 
 
+def test_drive_refuses_a_driver_that_lacks_a_primitive_before_anything_moves():
+    class Mute(motet.Driver):
+        async def go(self, goal, to):
+            raise AssertionError("nothing moves")
+
+    class Deaf(Robot):
+        async def say(self, goal):
+            raise AssertionError("nothing moves")
+
+    with pytest.raises(motet.InputError, match=r"it has no `async def say\(self, goal, text\)`"):
+        motet.drive("policy p for hsr { go(mug_1) say(\"Hello!\") done }", Mute(), scene="kitchen")
+    with pytest.raises(motet.InputError, match="its `say` does not take `goal, text`"):
+        motet.drive(GREET, Deaf())
+
+    class Anything(motet.Driver):
+        async def perform(self, goal, **args):
+            return None
+
+    assert motet.drive(GREET, Anything()).ok
+
+
+def test_drive_warns_of_facts_that_the_driver_does_not_observe():
+    class Blind(motet.Driver):
+        owns_clock = True
+
+        async def perform(self, goal, **args):
+            await goal.sleep(1.0)
+
+    with pytest.warns(UserWarning, match="the policy asks for `visible`, and the driver has no method of that name"):
+        run = motet.drive("policy get for hsr { go(mug_1) pick(mug_1) done }", Blind(), scene="kitchen")
+    assert (run.outcome, run.failure, run.why) == ("failed", "not_found", "needs visible(mug_1), which is unknown")
+    [guard] = [event for event in run if event.event == "guard"]
+    assert guard.more == {"need": 1, "needs": "visible(mug_1)", "truth": "unknown"}
+
+
+def test_a_replay_has_a_state_for_people():
+    run = motet.simulate(GREET)
+    replay = run.replay(at=0.5)
+    assert replay.text.startswith("`greet` at 0 s") and "runs " in replay.text
+    assert str(replay) == replay.text + replay.verdict
+    assert "runs " not in run.replay().text
+
+
 def test_an_interrupt_stops_a_run_and_the_robot():
     class Endless(Robot):
         owns_clock = False

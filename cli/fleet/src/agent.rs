@@ -419,7 +419,6 @@ impl Agent {
         let question = current.as_ref().and_then(|current| current.question.clone());
         let question = question.map(|(id, text)| json!({"id": id, "text": text}));
         let state = json!({
-            "at": now(),
             "order": current.as_ref().map(|current| current.order.clone()),
             "step": current.as_ref().map(|current| current.step.clone()),
             "question": question,

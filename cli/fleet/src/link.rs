@@ -48,7 +48,8 @@ pub(crate) struct ServerArgs {
 }
 
 impl ServerArgs {
-    /// Connects as somebody with a name. Answers come to an inbox of this name. With `waits` the server may come later; otherwise a server that is not there is an error.
+    /// Connects as somebody with a name. Answers come to an inbox of this name. With `waits` the server may
+    /// come later; otherwise a server that is not there is an error.
     pub(crate) async fn connect(&self, name: &str, waits: bool) -> Result<Client, String> {
         let mut options = ConnectOptions::new()
             .name(format!("motet {name}"))
@@ -170,7 +171,7 @@ impl Fleet {
             let state = serde_json::from_slice(&entry.value).ok().filter(Value::is_object);
             let mut state = state.unwrap_or_else(|| json!({}));
             // The clock of the server says how old it is, not the one of the robot.
-            state["at"] = json!(entry.created.unix_timestamp());
+            state["heard"] = json!(entry.created.unix_timestamp());
             states.push((robot, state));
         }
         states.sort_by(|one, other| one.0.cmp(&other.0));

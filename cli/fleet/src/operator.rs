@@ -147,7 +147,7 @@ fn report(answer: &Value) -> Result<u8, String> {
 async fn status(fleet: &Fleet) -> Result<u8, String> {
     for (robot, state) in fleet.states().await? {
         let text = |path: &str| clean(state.pointer(path).and_then(Value::as_str).unwrap_or_default());
-        let silent = now().saturating_sub(state.get("at").and_then(Value::as_u64).unwrap_or(0));
+        let silent = now().saturating_sub(state.get("heard").and_then(Value::as_u64).unwrap_or(0));
         let what = match (text("/order").as_str(), silent > SILENT) {
             (_, true) => format!("silent for {silent} s"),
             ("", _) => "waits for orders".to_owned(),

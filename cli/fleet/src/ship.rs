@@ -94,8 +94,8 @@ impl Shipment {
         Ok(is_all)
     }
 
-    /// Makes sure that what was read is on disk: a line that a loss of power takes back would have another one
-    /// in its place.
+    /// Makes sure that what was read is on disk: a line that a loss of power takes back would have another
+    /// one in its place.
     fn sync(&self, folder: &OrderFolder) -> Result<(), String> {
         let Some(segment) = &self.segment else { return Ok(()) };
         let read = segments(&folder.journal()).into_iter().rev().skip_while(|path| path != segment).take(2);

@@ -1,11 +1,10 @@
 //! `motet replay`: replays a journal through the engine and compares the effects.
 
-use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use clap::Args;
-use motet::replay::{JournalPlayer, Moment};
-use motet_runtime::{Snapshot, Time};
+use motet::replay::{JournalPlayer, Moment, described};
+use motet_runtime::Time;
 
 use crate::error::{CliError, Exit, journal_error};
 use crate::flags::duration;
@@ -58,35 +57,10 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<Exit, CliError> {
         out.line(&player.json(state.as_ref()));
     } else {
         if let Some(state) = &state {
-            out.text(&describe(state));
+            out.text(&described(state));
         }
         out.line(&player.verdict());
     }
     let exit = if player.is_identical() { Exit::Success } else { Exit::Findings };
     report::close(&mut out, Ok(exit))
-}
-
-/// State of the engine, for people.
-fn describe(state: &Snapshot) -> String {
-    let mut text = String::new();
-    // Writing to a string cannot fail.
-    let _ = writeln!(text, "`{}` at {}, revision {}", state.policy, state.at, state.revision);
-    for (fact, holds) in state.state() {
-        let word = match holds {
-            Some(true) => "true",
-            Some(false) => "false",
-            None => "unknown",
-        };
-        let _ = writeln!(text, "  {fact}: {word}");
-    }
-    for motet_runtime::Reading { query, value, at } in &state.readings {
-        let _ = writeln!(text, "  {query} = {value}, read at {at}");
-    }
-    for (name, value) in &state.bindings {
-        let _ = writeln!(text, "  let {name} = {value}");
-    }
-    for live in &state.goals {
-        let _ = writeln!(text, "  runs {} {} ({})", live.goal, live.command, live.path);
-    }
-    text
 }

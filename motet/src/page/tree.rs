@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use crate::run::events::{FailureNames, watched};
+use crate::run::events::{FailureNames, needed, watched};
 use motet_graph::draw::Names;
 use motet_graph::{Graph, NodeId, NodeKind, ROOT, Reaction, RegionId, Term};
 use motet_runtime::{Command, Event, NodeEnding, Time, TraceEvent, TraceEventKind, Verification};
@@ -261,17 +261,6 @@ fn of_all(graph: &Graph, node: NodeId) -> String {
     match graph.nodes.get(node.index()).map(|node| &node.kind) {
         Some(NodeKind::Call(call)) => format!(" of {}", u64::from(call.retries) + 1),
         Some(_) | None => String::new(),
-    }
-}
-
-/// Condition of a need.
-fn needed(graph: &Graph, node: NodeId, need: u32) -> String {
-    match graph.nodes.get(node.index()).map(|node| &node.kind) {
-        Some(NodeKind::Call(call)) => call
-            .needs
-            .get(need as usize)
-            .map_or_else(|| "?".to_owned(), |need| Names(graph).condition(&need.condition)),
-        Some(_) | None => "?".to_owned(),
     }
 }
 

@@ -17,13 +17,15 @@ use serde_json::{Map, json};
 pub struct RunEvents {
     graph: Arc<Graph>,
     failures: FailureNames,
+    /// Step whose need was last found wanting, with the reason in words.
+    unmet: Option<(NodeId, String)>,
 }
 
 impl RunEvents {
     /// Writer for the run of a graph.
     #[must_use]
     pub fn new(graph: Arc<Graph>) -> Self {
-        Self { graph, failures: FailureNames::default() }
+        Self { graph, failures: FailureNames::default(), unmet: None }
     }
 
     fn line(&self, now: Time, event: &str, node: Option<NodeId>, more: serde_json::Value) -> String {
@@ -72,7 +74,11 @@ impl RunEvents {
                 self.line(at, "goal_ended", Some(*node), more)
             }
             TraceEventKind::Guard { node, need, truth } => {
-                self.line(at, "guard", Some(*node), json!({"need": need, "truth": word(*truth)}))
+                let needs = needed(&graph, *node, *need);
+                self.unmet =
+                    (*truth != Truth::True).then(|| (*node, format!("needs {needs}, which is {truth}")));
+                let more = json!({"need": need, "needs": needs, "truth": word(*truth)});
+                self.line(at, "guard", Some(*node), more)
             }
             TraceEventKind::Verified { node, verdict } => {
                 self.line(at, "verified", Some(*node), json!({"verdict": verdict.to_string()}))
@@ -156,7 +162,15 @@ impl RunEvents {
             RunEnd::Failed { node, .. } => Some(*node),
             _ => None,
         };
-        self.line(now, "finished", node, outcome(end))
+        let mut more = outcome(end);
+        // A step that did not begin has no driver that could say why.
+        if let (RunEnd::Failed { node, why: None, .. }, Some((unmet, why))) = (end, &self.unmet)
+            && node == unmet
+            && let Some(more) = more.as_object_mut()
+        {
+            more.insert("why".to_owned(), json!(why));
+        }
+        self.line(now, "finished", node, more)
     }
 }
 
@@ -191,6 +205,17 @@ pub fn diagnostics(diagnostics: &[Diagnostic], sources: &Sources) -> Vec<String>
         serde_json::Value::Object(line).to_string()
     };
     diagnostics.iter().map(line).collect()
+}
+
+/// Need of a call, by its number.
+#[must_use]
+pub fn needed(graph: &Graph, node: NodeId, need: u32) -> String {
+    let Some(NodeKind::Call(call)) = graph.nodes.get(node.index()).map(|node| &node.kind) else {
+        return "?".to_owned();
+    };
+    call.needs
+        .get(need as usize)
+        .map_or_else(|| "?".to_owned(), |need| Names(graph).condition(&need.condition))
 }
 
 /// Condition of a watch.

@@ -259,6 +259,10 @@ fn help_names_the_intended_word() {
         "policy p {\n    pick(mug) retry 3 within 20 s retry 2\n}\n",
         &[("M0101", "stand once behind a call")],
     );
+    check(
+        "policy p {\n    retry 3 { pick(mug) }\n}\n",
+        &[("M0101", "`repeat 3 { … } until c` runs steps again")],
+    );
     check("policy p {\n    pick(mug) slowly slowly\n}\n", &[("M0101", "stand once behind a call")]);
     check("policy p {\n    go(user) at speed\n}\n", &[("M0101", "at which part of the robot's speed")]);
     check("policy p {\n    let x = 3 m slowly\n}\n", &[("M0101", "only a call of a primitive takes time")]);

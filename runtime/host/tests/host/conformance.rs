@@ -119,7 +119,7 @@ fn remote_driver_begins_runs_on_one_connection() {
         let until = now.after(Time::from_secs(0.5));
         assert_eq!(driver.advance(until), None, "the goal of the run before is forgotten");
         assert_eq!(driver.status(vec![goal]).unwrap().goals[0].state, GoalStatus::Unknown);
-        assert_eq!(driver.welcome().instance, instance);
+        assert_ne!(driver.welcome().instance, instance, "goals were forgotten");
     }
 }
 
