@@ -103,9 +103,9 @@ impl<'w> FactStore<'w> {
         table.get(key).or_else(below).unwrap_or(table.default)
     }
 
-    /// Value of a fact at a join: one about a symbol without an entry is unknown.
+    /// Value of a fact or a pattern at a join: one about a symbol without an entry is unknown.
     pub(crate) fn get_joined(&self, fluent: Fluent, key: FactKey) -> TruthSet {
-        if self.is_symbolic(fluent, key) && !key.is_pattern() {
+        if self.is_symbolic(fluent, key) {
             return self.entry(fluent, key).unwrap_or(TruthSet::NOTHING_KNOWN);
         }
         self.get(fluent, key)
@@ -160,6 +160,13 @@ impl<'w> FactStore<'w> {
         }
     }
 
+    /// Visits the facts and patterns that were written above the start, in no order.
+    pub(crate) fn written_parts(&self, fluent: Fluent, mut take: impl FnMut(FactKey)) {
+        if let Some(table) = self.table(fluent) {
+            table.covered(FactKey::ALL, |cell| take(cell.key));
+        }
+    }
+
     /// Visits the entries of the start that a pattern covers and no entry hides.
     fn unhidden(&self, fluent: Fluent, pattern: FactKey, mut take: impl FnMut(&TableEntry)) {
         let Some((above, below)) = self.table(fluent).zip(self.below(fluent)) else { return };
@@ -185,7 +192,7 @@ impl<'w> FactStore<'w> {
         if !key.is_pattern() {
             return self.set_single(fluent, key, value);
         }
-        let before = self.get(fluent, key);
+        let before = self.get_joined(fluent, key);
         let mut trail = std::mem::take(&mut self.trail);
         self.unhidden(fluent, key, |cell| {
             let (key, before) = (cell.key, cell.value);
@@ -250,7 +257,7 @@ impl<'w> FactStore<'w> {
         }
     }
 
-    /// Drops the entry of a single fact, so that its patterns give its value again.
+    /// Drops the entry of a fact or a pattern, so that wider patterns give its value again.
     pub(crate) fn forget(&mut self, fluent: Fluent, key: FactKey) {
         let Some(table) = self.tables.get_mut(fluent.index()) else { return };
         if let Some(old) = table.drop(key) {

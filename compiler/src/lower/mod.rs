@@ -47,10 +47,16 @@ pub(crate) fn lower(
         let fact = lowering.tables.fact(fact, &[], None)?;
         (!has_any(&fact)).then_some(graph::InitialFact { fact, value: *value })
     });
-    let initial = initial.collect();
+    let given: Vec<_> = initial.collect();
     let goal = lowering.goal();
     let sentences = lowering.sentences();
     let Lowering { nodes, regions, tables, .. } = lowering;
+    // In a closed world nothing holds but what is given: the engine has to know it as the proof does.
+    let closed = tables.fluents.iter().zip(0..).filter(|_| library.closed_world).map(|(fluent, index)| {
+        let args = vec![graph::FactArg::Any; fluent.params.len()];
+        graph::InitialFact { fact: graph::Fact { fluent: graph::FluentId(index), args }, value: false }
+    });
+    let initial = closed.chain(given).collect();
     let (least_secs, greatest_secs) = bounds_of(&program.body, program);
     graph::Graph {
         policy: program.name.clone(),

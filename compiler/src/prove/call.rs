@@ -412,7 +412,7 @@ impl<'a> Prover<'a> {
         let mut stale: SmallVec<[_; 8]> = SmallVec::new();
         for (index, def) in self.library.fluents.iter().enumerate() {
             let fluent = Fluent(u16::try_from(index).unwrap_or(u16::MAX));
-            self.state.facts.written(fluent, |key, _| {
+            self.state.facts.written_parts(fluent, |key| {
                 let mut params = def.params.iter().enumerate();
                 if params.any(|(at, (_, ty))| ty.kind().is_some() && key.arg(at) == symbol.0) {
                     stale.push((fluent, key));

@@ -263,6 +263,7 @@ impl<'a> Domain<'a> for Prover<'a> {
         for by in watched.iter().map(|watched| watched.by) {
             if let Some(StepKind::Monitor { whens, .. }) = self.program.step(by).map(|step| &step.kind) {
                 whens.iter().for_each(|when| self.doubt(&when.condition, Cause::step(by)));
+                self.doubt_reactions(by);
             }
         }
         self.control.unwatched.push(watched);

@@ -136,9 +136,13 @@ impl Prover<'_> {
         }
     }
 
-    /// Returns whether the `each` arguments of an effect's fluent are all of a kind.
+    /// Returns whether one pattern covers what an effect is about, and nothing else: its `each` stands in one
+    /// place, and all entities there are of a kind.
     fn covers(&self, effect: &EffectDef, kind: Kind) -> bool {
         let Some(def) = self.library.fluent(effect.fact.fluent) else { return true };
+        if effect.fact.args.iter().filter(|arg| **arg == Some(Term::Each)).count() > 1 {
+            return false;
+        }
         let mut places = effect.fact.args.iter().zip(&def.params);
         places.all(|(arg, (_, ty))| {
             *arg != Some(Term::Each) || ty.kind().is_none_or(|all| self.library.is_kind(all, kind))
@@ -181,12 +185,21 @@ impl Prover<'_> {
                 };
                 for pattern in aliases {
                     rest = rest.join(self.state.facts.get(fact.fluent, pattern));
-                    self.state.facts.entries(fact.fluent, pattern, |key, value| {
+                    let mut parts: SmallVec<[FactKey; 8]> = SmallVec::new();
+                    self.state.facts.parts(fact.fluent, pattern, |key| parts.push(key));
+                    for key in parts {
+                        let value = self.state.facts.get(fact.fluent, key);
                         let entity = Entity(key.arg(place));
-                        if !value.is_false() && self.is_of_kind(entity, kind) {
+                        if value.is_false() {
+                            continue;
+                        }
+                        if key.arg(place) == ANY {
+                            // It may hold for any of them.
+                            rest = rest.join(value);
+                        } else if self.is_of_kind(entity, kind) {
                             known.push(entity);
                         }
-                    });
+                    }
                 }
                 known.sort_unstable();
                 known.dedup();
@@ -345,17 +358,17 @@ impl Prover<'_> {
     fn echo(&mut self, fluent: Fluent, key: FactKey, value: TruthSet, cause: Cause) {
         let library = self.library;
         let Some(def) = library.fluent(fluent) else { return };
-        let mut targets: Vec<(FactKey, TruthSet)> = Vec::new();
-        let mut feels = |other: FactKey, known: TruthSet| {
+        let mut targets: Vec<FactKey> = Vec::new();
+        let mut feels = |other: FactKey| {
             if other != key && !key.covers(other) && self.may_be_same(&def.params, key, other) {
-                targets.push((other, known));
+                targets.push(other);
             }
         };
         if self.has_symbol(fluent, key) {
-            self.state.facts.entries(fluent, FactKey::ALL, &mut feels);
+            self.state.facts.parts(fluent, FactKey::ALL, &mut feels);
         } else {
             // What is no symbol may be one, and the facts at the start speak of none.
-            self.state.facts.written(fluent, &mut feels);
+            self.state.facts.written_parts(fluent, &mut feels);
         }
         // Entities behind the symbols that have no entry yet.
         let mut instances = vec![key];
@@ -373,10 +386,17 @@ impl Prover<'_> {
             if other.is_pattern() {
                 self.state.facts.change(fluent, other, |_, old| old.maybe(value, cause));
             } else if self.state.facts.entry(fluent, other).is_none() {
-                targets.push((other, self.state.facts.get(fluent, other)));
+                targets.push(other);
             }
         }
-        for (other, known) in targets {
+        // Of a pattern without a symbol the instances are weakened one by one.
+        targets.retain(|other| !other.is_pattern() || self.has_symbol(fluent, *other));
+        for other in targets {
+            if other.is_pattern() {
+                self.state.facts.change(fluent, other, |_, old| old.maybe(value, cause));
+                continue;
+            }
+            let known = self.state.facts.get(fluent, other);
             let felt = known.maybe(value, cause);
             if felt != known {
                 self.state.facts.set(fluent, other, felt);

@@ -139,10 +139,17 @@ impl<'a> Prover<'a> {
     fn enter_body(&mut self, id: StepId, whens: &'a [When]) {
         for when in whens.iter().filter(|when| when.hold_secs == 0.0) {
             let here = self.state.facts.mark();
+            let goes_on = matches!(when.reaction, Reaction::Pause { .. } | Reaction::Resume { .. });
+            if goes_on {
+                // On each of the paths that have met the body may begin.
+                let condition = &when.condition;
+                self.state
+                    .partitions
+                    .retain(|partition| !partition.differs(|fluent| mentions(condition, fluent)));
+            }
             if self.assume_at(id, &when.condition, false) {
                 continue;
             }
-            let goes_on = matches!(when.reaction, Reaction::Pause { .. } | Reaction::Resume { .. });
             if !goes_on || constant(&when.condition) {
                 self.control.live = false;
                 continue;
@@ -397,6 +404,31 @@ impl<'a> Prover<'a> {
             }
         }
         self.unsettle(&doubtful, cause);
+    }
+
+    /// Makes unknown as well what the reactions of a monitor may change: one may have broken off.
+    pub(super) fn doubt_reactions(&mut self, by: StepId) {
+        let program = self.program;
+        let is_in = |step: &Step| {
+            step.position.parent == Some(by) && matches!(step.position.slot, BlockSlot::Reaction(_))
+        };
+        for (index, step) in program.steps.iter().enumerate() {
+            let StepKind::Call(call) = &step.kind else { continue };
+            let id = StepId(u32::try_from(index).unwrap_or(u32::MAX));
+            if !is_in(step) && !program.around(id).any(|(_, around)| is_in(around)) {
+                continue;
+            }
+            let Some(def) = self.library.primitive(call.primitive) else { continue };
+            let result = call.binds.and_then(|binding| self.symbols.of_binding(binding.index()));
+            let frame = CallFrame { args: &call.args, result, each: None };
+            for effects in [&def.makes, &def.unsettles] {
+                let mut changed = Vec::new();
+                self.changes(effects, frame, &mut changed);
+                let perhaps = |change: &FactChange| FactChange::perhaps(change.fluent, change.key);
+                let perhaps: Vec<_> = changed.iter().map(perhaps).collect();
+                self.unsettle(&perhaps, Cause::step(by));
+            }
+        }
     }
 
     /// Makes unknown what the steps have made that decide a condition.

@@ -244,7 +244,9 @@ impl Domain {
     #[must_use]
     pub(super) fn changed(&self, changes: &[Change], frame: &Frame, state: &State) -> Vec<(usize, bool)> {
         let mut cells = Vec::new();
-        for change in changes {
+        // What depends on a result begins with it.
+        let begins = |change: &&Change| frame.result.is_some() || !change.is_about_result();
+        for change in changes.iter().filter(begins) {
             for frame in self.frames(change.each, frame) {
                 if change.when.as_ref().is_none_or(|when| self.holds(when, &frame, state)) {
                     cells.extend(
@@ -262,6 +264,22 @@ impl Domain {
             None => vec![frame.clone()],
             Some(kind) => self.of_kind(kind).map(|one| Frame { each: Some(one), ..frame.clone() }).collect(),
         }
+    }
+}
+
+impl Change {
+    /// True if the change, or its condition, is about a result.
+    fn is_about_result(&self) -> bool {
+        self.atom.args.contains(&Arg::Result) || self.when.as_ref().is_some_and(is_about_result)
+    }
+}
+
+fn is_about_result(condition: &Condition) -> bool {
+    match condition {
+        Condition::Is(atom) => atom.args.contains(&Arg::Result),
+        Condition::Same(one, other) => [one, other].contains(&&Arg::Result),
+        Condition::Not(inner) => is_about_result(inner),
+        Condition::All(parts) | Condition::AnyOf(parts) => parts.iter().any(is_about_result),
     }
 }
 

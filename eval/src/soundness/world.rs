@@ -292,8 +292,13 @@ impl<'d> World<'d> {
     fn interrupt(&mut self, id: GoalId, event: DriverEvent) {
         let Some(place) = self.running.iter().position(|goal| goal.id == id) else { return };
         let at = self.late();
+        let now = self.now;
         let Some(goal) = self.running.get_mut(place) else { return };
         goal.held = None;
+        if goal.ends <= now {
+            // It is done, and only its end is not told yet.
+            return;
+        }
         if self.mood != Mood::Honest && goal.ends != Time::NEVER && chance(&mut self.dice, 20) {
             // It was done already.
             let shift = at;

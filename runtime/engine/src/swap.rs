@@ -162,7 +162,8 @@ impl PreparedSwap {
             return Err(SwapRefusal::Robot { running: running.robot.clone(), wanted: graph.robot.clone() });
         }
         for told in &self.told {
-            let standing = run.beliefs.standing(&told.fluent, &told.args, told.value);
+            let standing =
+                run.beliefs.standing(&told.fluent, &told.args, told.value, &others(&self.told, told));
             if let FactStanding::Otherwise(believed) = standing {
                 let fact = Query::Fact { fluent: told.fluent.clone(), args: told.args.clone() };
                 return Err(SwapRefusal::Start { fact, told: told.value, believed });
@@ -223,8 +224,8 @@ impl Engine {
         if !same_fluents {
             run.beliefs.read_by(&next.graph);
         }
-        for told in &told {
-            run.beliefs.hear_told(&told.fluent, &told.args, told.value);
+        for one in &told {
+            run.beliefs.hear_told(one, &others(&told, one));
         }
         let revision = self.run.revision;
         let old = std::mem::replace(&mut self.run, run);
@@ -304,6 +305,15 @@ fn told(graph: &Graph) -> Vec<InitialFact> {
     last
 }
 
+/// Facts that say something else than one about every entity.
+fn others<'a>(told: &'a [InitialFact], of: &InitialFact) -> Vec<&'a [Pattern]> {
+    if !of.args.contains(&Pattern::Any) {
+        return Vec::new();
+    }
+    let others = told.iter().filter(|one| one.fluent == of.fluent && !one.args.contains(&Pattern::Any));
+    others.map(|one| one.args.as_slice()).collect()
+}
+
 /// True if two types of two graphs are the same.
 fn same_type(a: &Type, of_a: &Graph, b: &Type, of_b: &Graph) -> bool {
     let kind =
@@ -336,9 +346,10 @@ impl std::error::Error for SwapRefusal {}
 
 /// Initial facts in the beliefs of a run.
 impl Beliefs {
-    fn hear_told(&mut self, fluent: &SmolStr, args: &[Pattern], value: bool) {
-        if self.standing(fluent, args, value) == FactStanding::Unheard {
-            self.tell(fluent, args.to_vec(), Truth::from(value));
+    fn hear_told(&mut self, told: &InitialFact, others: &[&[Pattern]]) {
+        let InitialFact { fluent, args, value } = told;
+        if self.standing(fluent, args, *value, others) == FactStanding::Unheard {
+            self.tell(fluent, args.clone(), Truth::from(*value));
         }
     }
 }

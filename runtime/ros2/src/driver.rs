@@ -111,8 +111,8 @@ impl Driver {
     ///
     /// # Errors
     ///
-    /// Why a line of the host cannot be read, an answer cannot be written, or nobody knows that the robot stands
-    /// still.
+    /// Why a line of the host cannot be read, an answer cannot be written, or nobody knows that the robot
+    /// stands still.
     pub(crate) fn serve(&mut self, lines: &Receiver<Line>) -> Result<(), String> {
         // A panic is a defect of the driver, and no reason to let the robot move on.
         let served = catch_unwind(AssertUnwindSafe(|| self.listen(lines)));
@@ -418,7 +418,7 @@ impl Driver {
                 }
             }
             self.forgotten = 0;
-            // Who knew the driver before is not to take a goal that it has forgotten for one that never began.
+            // Who knew the driver before is not to take a forgotten goal for one that never began.
             self.forgets += 1;
             self.stopping.clear();
             self.watched.clear();

@@ -44,7 +44,7 @@ struct BaseState {
 pub(crate) struct Parts {
     /// Joints by their names in ROS.
     pub(crate) joints: BTreeSet<String>,
-    /// The base.
+    /// True if the base moves, too.
     pub(crate) drives: bool,
     /// Whatever is heard of: nobody knows which parts.
     pub(crate) all: bool,
@@ -124,7 +124,8 @@ impl Body {
 
     /// True if the joints and the base of some parts have been slow for long enough, and are known to be.
     ///
-    /// Of all parts, those that the binding names must be known; a joint that nobody reports any more is none.
+    /// Of all parts, those that the binding names must be known; a joint that nobody reports any more is
+    /// none.
     #[must_use]
     pub(crate) fn is_still(&self, parts: &Parts, binding: &Binding) -> bool {
         let secs = Duration::from_secs_f64(binding.standstill.secs.clamp(0.0, 10.0));

@@ -410,3 +410,110 @@ fn soundness_an_answer_from_before_a_step_says_nothing_of_what_the_step_unsettle
     });
     assert!(silent.iter().any(|request| request.contains("use")), "{silent:#?}");
 }
+
+/// Domain with facts of two things, beside [`DOMAIN`].
+const PAIRS: &str = "
+entity b: Object
+fluent tied(o: Object, to: Object)
+action cut(o: Object)
+    needs not tied(o, any)
+action free_pair(o: Object, to: Object)
+    needs not tied(o, to)
+action loosen(o: Object)
+    unsettles tied(b, o)
+action untie_selves()
+    makes not tied(o, o) for each o: Object
+action tie_to_all(o: Object)
+    makes tied(o, any)
+action serve()
+    needs f(b) for each o: Object when tied(o, o)
+";
+
+fn of_pairs(callee: &str, policy: &str) -> Vec<Verdict> {
+    verdicts(callee, &format!("{PAIRS}\n{policy}"))
+}
+
+#[test]
+fn soundness_a_binding_of_a_loop_forgets_what_was_said_of_all_beside_it() {
+    let policy = "initially tied(b, b)\nclosed world\n\
+                  policy p { each o in [a, b] at most 2 { make(a) cut(o) } }";
+    assert_eq!(of_pairs("cut", policy), [Verdict::Deferred]);
+    let twice = "policy p { let o = choose(\"which?\", [a, b]) cut(o) loosen(o) cut(o) }";
+    assert_eq!(of_pairs("cut", twice), [Verdict::Deferred]);
+}
+
+#[test]
+fn soundness_an_effect_on_each_with_itself_says_nothing_of_pairs() {
+    let policy = "policy p { untie_selves() free_pair(a, b) }";
+    assert_eq!(of_pairs("free_pair", policy), [Verdict::Deferred]);
+    let own = "policy p { untie_selves() free_pair(a, a) }";
+    assert_eq!(of_pairs("free_pair", own), [Verdict::Proven]);
+}
+
+#[test]
+fn soundness_a_need_of_each_asks_those_that_a_pattern_covers() {
+    let policy = "initially f(b)\nclosed world\npolicy p { tie_to_all(a) undo(b) serve() }";
+    let (session, _) = setup::session(None, None, &mut Sources::default());
+    let source = Source::new("p.motet", format!("{DOMAIN}\n{PAIRS}\n{policy}"));
+    let compiled = session.compile(&motet_syntax::read(&source, FileId(99)), None);
+    assert!(compiled.graph.is_none(), "`tied(a, a)` holds, and `f(b)` does not");
+    let made = "initially f(b)\nclosed world\npolicy p { tie_to_all(a) serve() }";
+    assert_eq!(of_pairs("serve", made), [Verdict::Proven]);
+}
+
+#[test]
+fn soundness_a_cleanup_runs_also_behind_a_reaction_that_has_failed() {
+    let remake = "action remake(o: Object)\n    makes f(o)\n    fails slipped\n";
+    let policy = |reaction: &str| {
+        format!(
+            "{remake}initially f(a)\npolicy p {{ monitor when g(a) then resume at most 1 {{ {reaction} }} \
+             during {{ sequence s {{ pass() }} finally {{ use(a) }} }} }}"
+        )
+    };
+    assert_eq!(verdicts("use", &policy("remake(a)")), [Verdict::Deferred]);
+    assert_eq!(verdicts("use", &policy("wave()")), [Verdict::Proven]);
+}
+
+#[test]
+fn soundness_the_body_of_a_monitor_begins_on_all_paths() {
+    let find = "perception find(what: Text) -> Object\n    makes g(result)\n";
+    let policy = "let m = find(\"x\") try { wait until not f(any) within 3 s let n = find(\"y\") } catch any { \
+                  monitor when g(m) then resume at most 1 { wave() } during { avoid(a) } }";
+    assert_eq!(verdicts("avoid", &format!("{find}policy p {{ {policy} }}")), [Verdict::Deferred]);
+}
+
+/// The conditions of effects are about the state before the step: what another branch has changed meanwhile
+/// does not count.
+#[test]
+fn soundness_the_condition_of_an_effect_is_not_judged_by_what_came_after_it() {
+    let clear = "action clear(o: Object)\n    makes not f(o) when not g(o)\n    uses base\n";
+    let policy = "policy p { parallel { { clear(a) avoid(a) } { make(a) } } }";
+    let mut goals = Vec::new();
+    let found = requests(&format!("{clear}{policy}"), &mut |effect| match effect {
+        Effect::Start { goal, command, .. } if command.primitive == "clear" => {
+            goals.push(*goal);
+            vec![DriverEvent::Acknowledged { goal: *goal }]
+        }
+        Effect::Start { goal, command, .. } if command.primitive == "make" => {
+            // The other branch ends first.
+            let ended = |goal| DriverEvent::Ended { goal, outcome: Outcome::Success(None) };
+            vec![ended(*goal), ended(goals[0])]
+        }
+        effect => honest(effect, |_| Some(false)),
+    });
+    assert!(
+        found.iter().any(|request| request.starts_with("observe") && request.contains("f(a)")),
+        "{found:?}"
+    );
+}
+
+/// In a closed world the engine knows what the proof takes for false.
+#[test]
+fn soundness_a_closed_world_fires_its_monitors_at_once() {
+    let policy = "initially g(a)\nclosed world\npolicy p { monitor when not f(a) then resume at most 1 { \
+                  make(a) } during { use(a) } }";
+    assert_eq!(verdicts("use", policy), [Verdict::Proven]);
+    let found = requests(policy, &mut |effect| honest(effect, |_| None));
+    let starts: Vec<&String> = found.iter().filter(|request| request.starts_with("start")).collect();
+    assert!(starts[0].contains("make"), "{found:?}");
+}

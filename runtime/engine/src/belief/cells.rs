@@ -25,6 +25,8 @@ pub(crate) struct Cell {
     pub(crate) at: Time,
     /// The number of the observation that gave the answer; 0 where an effect gave it.
     pub(crate) seen: u64,
+    /// The number of the observation or the effect that changed the answer last.
+    pub(crate) changed: u64,
     /// Keys of the watches and nodes to evaluate again after a change.
     pub(crate) dependents: Vec<u32>,
     /// Number of watches and waits that need it kept current.
@@ -53,6 +55,7 @@ pub(crate) struct PatternWrite {
     pub(crate) args: Vec<Pattern>,
     pub(crate) answer: Answer,
     pub(crate) seen: u64,
+    pub(crate) changed: u64,
 }
 
 /// A fluent's facts.
@@ -74,10 +77,12 @@ pub(crate) struct Beliefs {
     pub(crate) fluents: FxHashMap<SmolStr, Facts>,
     /// Keys of those who depend on something that has changed.
     pub(crate) changed: Vec<u32>,
-    /// Number of observations so far.
+    /// Number of observations and effects so far.
     pub(crate) observations: u64,
     /// The number of the observation that is being taken in; 0 where there is none.
     pub(super) observing: u64,
+    /// Cells that are watched and that the effects of one call have changed so far, with what was seen.
+    pub(super) watched: Vec<(CellId, Answer)>,
     cells: Vec<Cell>,
     index: FxHashMap<u64, CellId>,
 }
@@ -153,19 +158,19 @@ impl Beliefs {
             return id;
         }
         let id = CellId(self.cells.len() as u32);
-        let (answer, seen, observable) = match &query {
+        let (answer, (seen, changed), observable) = match &query {
             Query::Fact { fluent, args } => {
                 let pattern = args.contains(&Pattern::Any);
-                let (answer, seen) = self.wide_answer(fluent, args);
+                let (answer, numbers) = self.wide_answer(fluent, args);
                 let facts = self.fluents.entry(fluent.clone()).or_default();
                 if pattern {
                     facts.patterns.push(id)
                 } else {
                     facts.cells.push(id)
                 }
-                (answer, seen, facts.observable)
+                (answer, numbers, facts.observable)
             }
-            Query::Measure { .. } | Query::Field { .. } => (Answer::Unknown, 0, true),
+            Query::Measure { .. } | Query::Field { .. } => (Answer::Unknown, (0, 0), true),
         };
         let next = self.index.insert(query_hash(&query), id);
         let query = Arc::new(query);
@@ -175,6 +180,7 @@ impl Beliefs {
             answer,
             at: Time::ZERO,
             seen,
+            changed,
             dependents,
             watchers: 0,
             live: false,

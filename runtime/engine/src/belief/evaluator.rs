@@ -1,6 +1,7 @@
 //! Conditions and terms, judged against what is believed.
 
 use super::cells::{Beliefs, CellId};
+use super::facts::{BeliefChange, overlaps};
 use crate::query::{Answer, Pattern, Query, Truth};
 use crate::time::Time;
 use crate::verifier::derived;
@@ -13,7 +14,8 @@ pub(crate) enum Freshness {
     Readings(Time),
     /// Also a fact that can be observed counts only if it was seen after the observation of this number.
     Facts(Time, u64),
-    /// As [`Self::Readings`], and no fact counts that was seen after the observation of this number.
+    /// As [`Self::Readings`], and no fact counts that was seen or changed after the observation or the effect
+    /// of this number.
     Before(Time, u64),
 }
 
@@ -29,6 +31,8 @@ pub(crate) struct Evaluator<'a> {
     /// Current value of [`Term::Each`].
     pub(crate) each: Option<Value>,
     pub(crate) fresh: Freshness,
+    /// Changes that other calls may make at any moment: what they are about is not known.
+    pub(crate) busy: &'a [BeliefChange],
     /// True if a text says of an unknown value that it is unknown; otherwise the whole text is.
     pub(crate) vague: bool,
     /// Collects the queries that are unknown and can be observed.
@@ -171,7 +175,7 @@ impl Evaluator<'_> {
     fn fact(&mut self, fact: &Fact) -> Truth {
         let Some(fluent) = self.graph.fluents.get(fact.fluent.index()) else { return Truth::Unknown };
         let Some(args) = self.patterns(fact) else { return Truth::Unknown };
-        let (mut truth, seen) = self.beliefs.fact(&fluent.name, &args);
+        let (mut truth, (seen, changed)) = self.beliefs.fact(&fluent.name, &args);
         if fluent.name == DERIVED && !self.is_current(&fluent.name, &args) {
             truth = Truth::Unknown;
         }
@@ -182,7 +186,9 @@ impl Evaluator<'_> {
         {
             truth = Truth::Unknown;
         }
-        if matches!(self.fresh, Freshness::Before(_, last) if seen > last) {
+        let is_busy = |change: &BeliefChange| change.fluent == fluent.name && overlaps(&change.args, &args);
+        if matches!(self.fresh, Freshness::Before(_, last) if changed > last) || self.busy.iter().any(is_busy)
+        {
             truth = Truth::Unknown;
         }
         if self.missing.is_some() && self.beliefs.is_tainted(&fluent.name, &args) {

@@ -33,24 +33,24 @@ pub(crate) enum FactStanding {
 }
 
 impl Beliefs {
-    /// Truth value of a fact, with `any` of its existential closure, and the number of the observation behind
-    /// it, 0 for an effect.
-    pub(crate) fn fact(&self, fluent: &str, args: &[Pattern]) -> (Truth, u64) {
+    /// Truth value of a fact, with `any` of its existential closure, and the numbers of the observation behind
+    /// it, 0 for an effect, and of its last change.
+    pub(crate) fn fact(&self, fluent: &str, args: &[Pattern]) -> (Truth, (u64, u64)) {
         let own = self.find_fact(fluent, args).and_then(|id| self.cell(id));
-        let (answer, seen) = match own {
-            Some(cell) => (truth_of(&cell.answer), cell.seen),
+        let (answer, numbers) = match own {
+            Some(cell) => (truth_of(&cell.answer), (cell.seen, cell.changed)),
             None => {
-                let (answer, seen) = self.wide_answer(fluent, args);
-                (truth_of(&answer), seen)
+                let (answer, numbers) = self.wide_answer(fluent, args);
+                (truth_of(&answer), numbers)
             }
         };
         if args.contains(&Pattern::Any)
             && answer != Truth::True
-            && let Some(seen) = self.witness(fluent, args)
+            && let Some(numbers) = self.witness(fluent, args)
         {
-            return (Truth::True, seen);
+            return (Truth::True, numbers);
         }
-        (answer, seen)
+        (answer, numbers)
     }
 
     /// True if what is believed of a fact was perhaps observed before the last effect on it.
@@ -65,13 +65,26 @@ impl Beliefs {
         self.apply(&change, Time::ZERO);
     }
 
-    /// Relation of the beliefs to a fact from which a policy was proved; `any` stands for every entity.
-    pub(crate) fn standing(&self, fluent: &str, args: &[Pattern], value: bool) -> FactStanding {
+    /// Relation of the beliefs to a fact from which a policy was proved; `any` stands for every entity for which
+    /// none of `others` says something else.
+    pub(crate) fn standing(
+        &self,
+        fluent: &str,
+        args: &[Pattern],
+        value: bool,
+        others: &[&[Pattern]],
+    ) -> FactStanding {
         let Some(facts) = self.fluents.get(fluent) else { return FactStanding::Unheard };
         let is_written = |id: &CellId| self.cell(*id).is_some_and(|cell| cell.written);
+        let is_meant = |id: &CellId| {
+            self.cell(*id).is_some_and(|cell| match &*cell.query {
+                crate::query::Query::Fact { args, .. } => !others.contains(&args.as_slice()),
+                _ => true,
+            })
+        };
         let is_heard = facts.wides.iter().any(|wide| overlaps(&wide.args, args));
         let (believed, is_heard) = if args.contains(&Pattern::Any) {
-            let mut told = self.covered(fluent, args).filter(is_written).peekable();
+            let mut told = self.covered(fluent, args).filter(is_written).filter(is_meant).peekable();
             let is_heard = is_heard || told.peek().is_some();
             let each = told.map(|id| self.cell(id).map_or(Truth::Unknown, |cell| truth_of(&cell.answer)));
             let rest = facts.wides.iter().rev().find(|wide| covers(&wide.args, args));
@@ -139,14 +152,15 @@ impl Beliefs {
     }
 
     /// Answer of the pattern writes for a fact or a pattern without a cell.
-    pub(crate) fn wide_answer(&self, fluent: &str, args: &[Pattern]) -> (Answer, u64) {
-        let unknown = (Answer::Unknown, 0);
+    pub(crate) fn wide_answer(&self, fluent: &str, args: &[Pattern]) -> (Answer, (u64, u64)) {
+        let unknown = (Answer::Unknown, (0, 0));
         let Some(facts) = self.fluents.get(fluent) else { return unknown };
         for wide in facts.wides.iter().rev() {
             if covers(&wide.args, args) {
                 let none = wide.answer == Answer::Truth(false) && self.all_false(fluent, args);
                 let pattern = args.contains(&Pattern::Any);
-                return if pattern && !none { unknown } else { (wide.answer.clone(), wide.seen) };
+                let numbers = (wide.seen, wide.changed);
+                return if pattern && !none { unknown } else { (wide.answer.clone(), numbers) };
             }
             // A later write to some of them: only where it says the same does an earlier one stand.
             if overlaps(&wide.args, args) && wide.answer != Answer::Truth(false) {
@@ -161,12 +175,11 @@ impl Beliefs {
         covered.all(|id| self.cell(id).is_none_or(|cell| cell.answer == Answer::Truth(false)))
     }
 
-    /// Of a fact that is believed true and fits a pattern: the number of the observation.
-    fn witness(&self, fluent: &str, args: &[Pattern]) -> Option<u64> {
-        let mut covered = self.covered(fluent, args);
-        covered.find_map(|id| {
-            self.cell(id).filter(|cell| cell.answer == Answer::Truth(true)).map(|cell| cell.seen)
-        })
+    /// Of a fact that is believed true and fits a pattern: the numbers of the observation and of the change.
+    fn witness(&self, fluent: &str, args: &[Pattern]) -> Option<(u64, u64)> {
+        let covered = self.covered(fluent, args).filter_map(|id| self.cell(id));
+        let mut holding = covered.filter(|cell| cell.answer == Answer::Truth(true));
+        holding.next().map(|cell| (cell.seen, cell.changed))
     }
 
     /// The cells of single facts that fit a pattern.
@@ -191,6 +204,8 @@ impl Beliefs {
     }
 
     fn write_wide(&mut self, change: &BeliefChange, now: Time) {
+        // An observation changes nothing: only what was known to hold may be what made a pattern true.
+        let was_so = self.observing == 0 || self.fact(&change.fluent, &change.args).0 == Truth::True;
         let written = if change.sure { change.value } else { Truth::Unknown };
         let ids: Vec<CellId> =
             if change.rest { Vec::new() } else { self.covered(&change.fluent, &change.args).collect() };
@@ -199,12 +214,13 @@ impl Beliefs {
             let new = if change.sure { change.value } else { old.joined(change.value) };
             self.write_cell(id, new, now);
         }
-        let seen = self.observing;
+        let (seen, changed) = (self.observing, self.number());
         if let Some(facts) = self.fluents.get_mut(&change.fluent) {
             facts.wides.retain(|wide| !covers(&change.args, &wide.args));
-            facts.wides.push(PatternWrite { args: change.args.clone(), answer: answer_of(written), seen });
+            let (args, answer) = (change.args.clone(), answer_of(written));
+            facts.wides.push(PatternWrite { args, answer, seen, changed });
         }
-        self.unsettle_patterns(change, (true, written), now);
+        self.unsettle_patterns(change, (was_so, written), now);
     }
 
     /// Updates the cells with `any` that a write touches; `was_so` is true if what is written may have held
@@ -236,18 +252,38 @@ impl Beliefs {
         }
     }
 
+    /// Makes the changes of one call, which are made together.
+    pub(crate) fn apply_all(&mut self, changes: &[BeliefChange], now: Time) {
+        self.watched.clear();
+        changes.iter().for_each(|change| self.apply(change, now));
+        self.watched.clear();
+    }
+
     /// Writes what an observation or an effect says of a cell. An effect takes nothing back that is watched:
     /// its driver reports every change.
     fn write_cell(&mut self, id: CellId, truth: Truth, now: Time) {
-        let is_live = self.cell(id).is_some_and(|cell| cell.live);
-        if self.observing != 0 || truth != Truth::Unknown || !is_live {
+        let Some(cell) = self.cell(id).filter(|cell| cell.live && self.observing == 0) else {
             self.set(id, answer_of(truth), now);
+            return;
+        };
+        let answer = cell.answer.clone();
+        let before =
+            self.watched.iter().find(|(watched, _)| *watched == id).map(|(_, before)| before.clone());
+        if truth != Truth::Unknown {
+            if before.is_none() {
+                self.watched.push((id, answer));
+            }
+            self.set(id, answer_of(truth), now);
+        } else if let Some(before) = before {
+            // Another effect of the same call leaves open what this one has said.
+            self.set(id, before, now);
         }
     }
 
     fn set(&mut self, id: CellId, answer: Answer, now: Time) {
-        let seen = self.observing;
+        let (seen, changed) = (self.observing, self.number());
         let Some(cell) = self.cell_mut(id) else { return };
+        cell.changed = changed;
         cell.at = now;
         cell.seen = seen;
         cell.written = true;
@@ -259,6 +295,14 @@ impl Beliefs {
             cell.answer = answer;
             self.note(id);
         }
+    }
+
+    /// Number of what changes now: of the observation, or of an effect.
+    fn number(&mut self) -> u64 {
+        if self.observing == 0 {
+            self.observations += 1;
+        }
+        self.observations
     }
 
     pub(crate) fn note(&mut self, id: CellId) {
@@ -293,6 +337,6 @@ pub(crate) fn covers(wide: &[Pattern], other: &[Pattern]) -> bool {
 }
 
 /// True if some fact is one of both.
-fn overlaps(a: &[Pattern], b: &[Pattern]) -> bool {
+pub(super) fn overlaps(a: &[Pattern], b: &[Pattern]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| *a == Pattern::Any || *b == Pattern::Any || a == b)
 }

@@ -61,9 +61,11 @@ pub(super) struct Contracts<'a> {
     pub(super) bindings: &'a [Option<Value>],
     pub(super) beliefs: &'a mut Beliefs,
     pub(super) now: Time,
-    /// Number of the last observation before the call began: its conditions are about the state before it.
-    /// The greatest number if all observations count.
+    /// Number of the last observation or effect before the call began: its conditions are about the state
+    /// before it. The greatest number if all count.
     pub(super) begun: u64,
+    /// Changes that other calls which run may make at any moment.
+    pub(super) busy: Vec<BeliefChange>,
 }
 
 impl Turn<'_> {
@@ -74,9 +76,28 @@ impl Turn<'_> {
         if let Some(call) =
             plan.call(node).filter(|call| !call.effects.is_empty() || !call.unsettles.is_empty())
         {
-            self.contracts_at(node).unsettle(call);
-            self.contracts_at(node).make(call);
+            let busy = self.busy(node, call);
+            let mut contracts = Contracts { busy, ..self.contracts_at(node) };
+            contracts.unsettle(call);
+            contracts.make(call);
         }
+    }
+
+    /// Changes that the other calls which run may make, if conditions of a call are judged by them.
+    fn busy(&mut self, node: NodeId, call: &CallNode) -> Vec<BeliefChange> {
+        let mut conditions = call.effects.iter().map(|effect| &effect.when);
+        if conditions.all(Option::is_none) && call.unsettles.iter().all(|entry| entry.when.is_none()) {
+            return Vec::new();
+        }
+        let plan = self.plan;
+        let others = self.run.goals.live().into_iter().map(|(_, other)| other).filter(|other| *other != node);
+        let mut busy = Vec::new();
+        for other in others.collect::<Vec<_>>() {
+            if let Some(call) = plan.call(other) {
+                self.contracts().expand_all(call, &mut busy);
+            }
+        }
+        busy
     }
 
     /// Applies what a call unsettles as soon as it starts.
@@ -110,6 +131,7 @@ impl Turn<'_> {
             beliefs: &mut self.run.beliefs,
             now: self.run.now,
             begun: u64::MAX,
+            busy: Vec::new(),
         }
     }
 
@@ -199,12 +221,17 @@ impl Contracts<'_> {
             return;
         }
         let mut changes = Vec::new();
+        self.expand_all(call, &mut changes);
+        self.apply(&changes);
+    }
+
+    /// Works out all that a call may change, as unknown.
+    fn expand_all(&mut self, call: &CallNode, changes: &mut Vec<BeliefChange>) {
         for effect in &call.effects {
             let (fact, when) = (&effect.fact, effect.when.as_ref());
-            self.expand(ContractEntry { fact, value: Truth::Unknown, when, each: effect.each }, &mut changes);
+            self.expand(ContractEntry { fact, value: Truth::Unknown, when, each: effect.each }, changes);
         }
-        self.expand_unsettled(call, &mut changes);
-        self.apply(&changes);
+        self.expand_unsettled(call, changes);
     }
 
     fn expand_unsettled(&mut self, call: &CallNode, changes: &mut Vec<BeliefChange>) {
@@ -215,7 +242,7 @@ impl Contracts<'_> {
     }
 
     fn apply(&mut self, changes: &[BeliefChange]) {
-        changes.iter().for_each(|change| self.beliefs.apply(change, self.now));
+        self.beliefs.apply_all(changes, self.now);
     }
 
     /// Works out the changes of one entry in the state as it is.
@@ -287,6 +314,7 @@ impl Contracts<'_> {
             bindings: self.bindings,
             each,
             fresh: Freshness::Before(self.now, self.begun),
+            busy: &self.busy,
             vague: false,
             missing: None,
         }

@@ -305,6 +305,7 @@ impl Turn<'_> {
             bindings: &self.run.bindings,
             each: None,
             fresh,
+            busy: &[],
             vague: false,
             missing: None,
         }
@@ -318,6 +319,7 @@ impl Turn<'_> {
             bindings: &self.run.bindings,
             each: None,
             fresh,
+            busy: &[],
             vague: false,
             missing: Some(&mut self.run.missing),
         }

@@ -247,6 +247,7 @@ impl Turn<'_> {
             graph: &orphan.plan.graph,
             bindings: &orphan.bindings,
             beliefs: &mut self.run.beliefs,
+            busy: Vec::new(),
             now: self.run.now,
             begun: u64::MAX,
         }

@@ -20,8 +20,8 @@ const REPLACES: Duration = Duration::from_millis(400);
 const STANDS: Duration = Duration::from_secs(6);
 
 impl Task {
-    /// Waits until no server carries out a goal and everything stands still, and then ends, or goes on after a
-    /// hold.
+    /// Waits until no server carries out a goal and everything stands still, and then ends, or goes on after
+    /// a hold.
     pub(super) fn advance_stop(&mut self, around: &mut Surroundings<'_>) -> Option<Finish> {
         let is_still = around.robot.body.is_still(&self.parts, &around.robot.binding);
         let is_over = self.is_over_everywhere(around);
@@ -176,7 +176,8 @@ pub(crate) fn stand_still(robot: &mut Robot, parts: &Parts) -> Vec<usize> {
     replaced
 }
 
-/// Trajectory of a controller that stands still; `None` if it moves none of the parts, or where it is unknown.
+/// Trajectory of a controller that stands still; `None` if it moves none of the parts, or where it is
+/// unknown.
 fn standing(robot: &Robot, controller: &Controller, parts: &Parts) -> Option<Trajectory> {
     if controller.base.is_empty() {
         let is_asked = parts.all || controller.joints.iter().any(|joint| parts.joints.contains(joint));
