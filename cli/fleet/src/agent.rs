@@ -3,7 +3,7 @@
 use crate::link::{Fleet, POLICIES, RESULTS, STATES, SWAPS, ServerArgs, name, within_message};
 use crate::run::{Events, OrderFolder, RunSettings, tell_page};
 use crate::ship::Shipment;
-use crate::signed::{Trust, What, Words, now, open, read};
+use crate::signed::{Trust, What, Words, open, read};
 use async_nats::connection::State;
 use async_nats::jetstream::{AckKind, Message};
 use futures::StreamExt as _;
