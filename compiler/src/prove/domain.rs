@@ -4,7 +4,7 @@
 use std::hash::{Hash, Hasher};
 
 use motet_syntax::Span;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::assume::Outcome;
 use super::collector::Collector;
@@ -411,8 +411,16 @@ impl Prover<'_> {
             if is_others { TruthSet { open: Cause::NONE, ..value } } else { value }
         };
         let mut written: FxHashMap<Atom, (TruthSet, TruthSet)> = FxHashMap::default();
+        // Facts that the branches change alone, and those that one has while another disturbs it.
+        let known: FxHashSet<Atom> = changed
+            .iter()
+            .flatten()
+            .flat_map(|(atom, _)| self.instances(*atom).into_iter().chain([*atom]))
+            .collect();
         for (touched, delta) in changed.iter().zip(deltas) {
-            for (atom, alone) in touched.iter().copied() {
+            let more = delta.atoms().filter(|atom| !known.contains(atom));
+            let more: Vec<_> = more.map(|atom| (atom, delta.get(&self.state.facts, atom))).collect();
+            for (atom, alone) in touched.iter().copied().chain(more) {
                 let value = delta.get(&self.state.facts, atom);
                 let Some(first) = written.get(&atom).copied() else {
                     written.insert(atom, (value, alone));
@@ -423,8 +431,7 @@ impl Prover<'_> {
                     self.conflict(id, atom, one, other);
                 }
                 // What both branches make is made, whichever ends last.
-                let both = (one.is_true() && other.is_true()) || (one.is_false() && other.is_false());
-                let value = if both { one } else { TruthSet::open(Cause::step(id)) };
+                let value = if one.same_set(other) { one } else { TruthSet::open(Cause::step(id)) };
                 written.insert(atom, (value, value));
             }
         }

@@ -338,8 +338,22 @@ impl<'a> Prover<'a> {
             return;
         }
         let rows = std::mem::take(&mut self.state.volatile);
+        // What another reaction or the world may do to all of a pattern, it may do to this one.
+        let wider = |row: &Volatile| {
+            let (fluent, key, when) = (row.fluent, row.key, row.when);
+            let is_wider = move |other: &&Volatile| {
+                other.fluent == fluent
+                    && other.when != when
+                    && other.key.is_pattern()
+                    && other.key.covers(key)
+            };
+            rows.iter().filter(is_wider).map(|other| other.value)
+        };
         let single = rows.iter().filter(|row| !row.key.is_pattern());
-        let single = single.map(|row| (row, self.read(row.fluent, row.key).join(row.value)));
+        let single = single.map(|row| {
+            let value = self.read(row.fluent, row.key).join(row.value);
+            (row, wider(row).fold(value, TruthSet::join))
+        });
         let single: Vec<_> = single.collect();
         for row in rows.iter().filter(|row| row.key.is_pattern()) {
             // A narrower row of the same reaction says more of what it covers.
