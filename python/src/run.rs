@@ -33,8 +33,8 @@ impl Run {
         self.events.iter().flat_map(|line| [line.as_str(), "\n"]).collect()
     }
 
-    /// Replay to a time in s, to the entry with a number, or to the end: the verdict and the state for people,
-    /// and a JSON object.
+    /// Replay to a time in s, to the entry with a number, or to the end: the verdict and the state for
+    /// people, and a JSON object.
     #[pyo3(signature = (at, entry))]
     fn replay(&self, py: Python<'_>, at: Option<f64>, entry: Option<u64>) -> PyResult<Replayed> {
         let mut player = JournalPlayer::until(moment(at, entry)?);

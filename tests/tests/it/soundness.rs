@@ -477,8 +477,8 @@ fn soundness_a_cleanup_runs_also_behind_a_reaction_that_has_failed() {
 #[test]
 fn soundness_the_body_of_a_monitor_begins_on_all_paths() {
     let find = "perception find(what: Text) -> Object\n    makes g(result)\n";
-    let policy = "let m = find(\"x\") try { wait until not f(any) within 3 s let n = find(\"y\") } catch any { \
-                  monitor when g(m) then resume at most 1 { wave() } during { avoid(a) } }";
+    let policy = "let m = find(\"x\") try { wait until not f(any) within 3 s let n = find(\"y\") } \
+                  catch any { monitor when g(m) then resume at most 1 { wave() } during { avoid(a) } }";
     assert_eq!(verdicts("avoid", &format!("{find}policy p {{ {policy} }}")), [Verdict::Deferred]);
 }
 

@@ -183,8 +183,9 @@ impl<'t> ErrorContext<'t> {
         let behind = text.get(word.end()..).unwrap_or("").trim_start();
         let behind = behind.trim_start_matches(|letter: char| letter.is_ascii_digit());
         if word.text == "retry" && behind.trim_start().starts_with('{') {
-            let advice = "`repeat 3 { … } until c` runs steps again until `c` holds, and `try { … } catch slipped \
-                          { … }` handles their failure; a call alone is tried again by `pick(mug) retry 2`";
+            let advice = "`repeat 3 { … } until c` runs steps again until `c` holds, and `try { … } catch \
+                          slipped { … }` handles their failure; a call alone is tried again by \
+                          `pick(mug) retry 2`";
             return (Some(advice.into()), None);
         }
         if matches!(word.text, "retry" | "within" | "slowly" | "gently") {

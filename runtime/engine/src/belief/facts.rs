@@ -33,8 +33,8 @@ pub(crate) enum FactStanding {
 }
 
 impl Beliefs {
-    /// Truth value of a fact, with `any` of its existential closure, and the numbers of the observation behind
-    /// it, 0 for an effect, and of its last change.
+    /// Truth value of a fact, with `any` of its existential closure, and the numbers of the observation
+    /// behind it, 0 for an effect, and of its last change.
     pub(crate) fn fact(&self, fluent: &str, args: &[Pattern]) -> (Truth, (u64, u64)) {
         let own = self.find_fact(fluent, args).and_then(|id| self.cell(id));
         let (answer, numbers) = match own {
@@ -65,8 +65,8 @@ impl Beliefs {
         self.apply(&change, Time::ZERO);
     }
 
-    /// Relation of the beliefs to a fact from which a policy was proved; `any` stands for every entity for which
-    /// none of `others` says something else.
+    /// Relation of the beliefs to a fact from which a policy was proved; `any` stands for every entity for
+    /// which none of `others` says something else.
     pub(crate) fn standing(
         &self,
         fluent: &str,
