@@ -5,7 +5,7 @@ use crate::cdr::{Message, encode};
 use crate::dds::{Dds, Quality, Received, Source, Writer, dds_topic, dds_type};
 use crate::layout::{Distribution, Layouts};
 use crate::service::{Asked, Interface, Middleware, Server};
-use crossbeam_channel::{Receiver, Sender, select, tick, unbounded};
+use crossbeam_channel::{Receiver, Sender, bounded, select, tick};
 use serde_json::{Value, json};
 use std::io::{BufRead, BufReader, Read};
 use std::path::PathBuf;
@@ -18,6 +18,8 @@ const TYPE: &str = "motet_msgs/RunPolicy";
 const MAX_POLICY: usize = 1024 * 1024;
 /// Most characters of standard error that a result has.
 const MAX_TEXT: usize = 10_000;
+/// Messages, and lines of a run, that wait to be taken in.
+const WAITING: usize = 4_096;
 /// Ended goals whose result is kept, and for how long.
 const KEPT: usize = 100;
 const KEEPS: Duration = Duration::from_secs(900);
@@ -100,10 +102,11 @@ struct Tasks<'a> {
 ///
 /// DDS does not start.
 pub(crate) fn serve(args: &TasksArgs) -> Result<u8, String> {
-    let (sender, received) = unbounded();
+    let (sender, received) = bounded(WAITING);
     let of_environment = || std::env::var("ROS_DOMAIN_ID").ok()?.trim().parse().ok();
     let dds = Dds::join(args.domain.or_else(of_environment).unwrap_or(0), &[], sender)?;
-    let (said, heard) = unbounded();
+    // A run that says more than is told waits.
+    let (said, heard) = bounded(WAITING);
     let mut tasks = Tasks::open(args, &dds, said)?;
     println!("ready");
     tasks.run(&received, &heard)
