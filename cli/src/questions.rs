@@ -48,7 +48,7 @@ pub(crate) fn jumps(speed: Speed, clock: Clock) -> bool {
     speed == Speed::Max && clock == Clock::Simulated
 }
 
-/// Who answers questions, one at a time.
+/// A person or a program that answers questions, one at a time.
 pub(crate) trait Answerer {
     /// Begins to ask a question.
     fn ask(&mut self, question: &Question);
@@ -259,7 +259,7 @@ mod tests {
         fn unwatch(&mut self, _now: Time, _query: &Query) {}
     }
 
-    /// What was asked and withdrawn, and the answer.
+    /// Questions that were asked or withdrawn, and the answer to give.
     #[derive(Default)]
     struct Said {
         heard: Vec<String>,

@@ -192,9 +192,8 @@ impl Agent {
         };
         let id = words.id.clone();
         let folder = OrderFolder(self.root.join("orders").join(&id));
-        if let Some(before) = folder.order()
-            && before.what != words.what
-        {
+        let before = folder.order();
+        if before.as_ref().is_some_and(|before| before.what != words.what) {
             eprintln!("motet-fleet: an order is left out: `{id}` was the id of another one");
             return message.double_ack().await.map_err(|error| error.to_string());
         }
@@ -206,11 +205,8 @@ impl Agent {
         {
             return self.refuse(message, &late).await;
         }
-        let folder = if folder.order().is_some() {
-            folder
-        } else {
-            OrderFolder::create(&self.root.join("orders"), &words)?
-        };
+        let folder =
+            if before.is_some() { folder } else { OrderFolder::create(&self.root.join("orders"), &words)? };
         let result = match folder.result() {
             Some(result) => result,
             None => {

@@ -19,7 +19,7 @@ const BATCH: usize = 256;
 /// Greatest number of bytes of a line.
 const MAX_LINE: u64 = 64 * 1024 * 1024;
 
-/// What the server has of a journal.
+/// Progress of a journal on its way to the server.
 #[derive(Clone, Copy, PartialEq, Debug)]
 struct Shipped {
     /// Number of the first line that it does not have whole.
@@ -149,7 +149,7 @@ fn messages(lines: Vec<Vec<u8>>) -> Vec<Vec<Vec<u8>>> {
     messages
 }
 
-/// What the server has of a journal.
+/// Reads from the server how much of a journal it has.
 async fn shipped(fleet: &Fleet, subject: &str) -> Result<Shipped, String> {
     let wrong = |error: String| format!("the journals: {error}");
     let stream = fleet.js.get_stream(JOURNALS).await.map_err(|error| wrong(error.to_string()))?;

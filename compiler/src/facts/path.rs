@@ -61,11 +61,11 @@ impl Delta {
     }
 
     /// Facts and patterns that the path has written.
-    /// Facts and patterns that were written.
     pub(crate) fn atoms(&self) -> impl Iterator<Item = Atom> {
         self.ranks().map(Rank::atom)
     }
 
+    /// Ranks of the facts and patterns that the path has written.
     pub(super) fn ranks(&self) -> impl Iterator<Item = Rank> {
         self.written.iter().map(|(rank, _)| *rank)
     }

@@ -26,6 +26,8 @@ const CANCELS_AGAIN: Duration = Duration::from_millis(500);
 const CANCELS: u32 = 6;
 /// Greatest number of goals that were given up and are still remembered.
 const MAX_LOST: usize = 1_000;
+/// Code of a cancel that a server refuses, in `action_msgs/CancelGoal`.
+const REJECTED: f64 = 1.0;
 
 /// Codes of the state of a goal in `action_msgs/GoalStatus`.
 mod status {
@@ -439,9 +441,6 @@ impl ActionClient {
         }
     }
 }
-
-/// Code of a cancel that a server refuses, in `action_msgs/CancelGoal`.
-const REJECTED: f64 = 1.0;
 
 /// Id of a goal at a path.
 #[must_use]

@@ -96,7 +96,7 @@ pub(crate) struct Step {
     pub(crate) text: Option<String>,
 }
 
-/// What a step does.
+/// Effect of a step on the robot.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Deed {
     Motion(Direction),

@@ -22,9 +22,8 @@ impl Driver {
     /// Stops everything, and waits for standstill.
     pub(super) fn leave(&mut self) -> Result<(), String> {
         let (begun, received) = (Instant::now(), self.robot.received.clone());
-        let is_unsure = |driver: &Self| driver.goals.values().any(|goal| matches!(goal, Goal::Lost));
         self.stop_all();
-        if is_unsure(self) {
+        if self.goals.values().any(|goal| matches!(goal, Goal::Lost)) {
             self.stop_whole();
         }
         while self.is_running() || self.whole_stop.is_some() {
