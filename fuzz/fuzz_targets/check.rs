@@ -8,8 +8,7 @@ use libfuzzer_sys::fuzz_target;
 use motet_compiler::Session;
 use motet_syntax::{FileId, Source, Sources};
 
-static SESSION: LazyLock<Session> =
-    LazyLock::new(|| Session::builder().build(&mut Sources::default()));
+static SESSION: LazyLock<Session> = LazyLock::new(|| Session::builder().build(&mut Sources::default()));
 
 fuzz_target!(|bytes: &[u8]| {
     let Ok(text) = motet_syntax::decode(bytes, FileId(u16::MAX)) else { return };

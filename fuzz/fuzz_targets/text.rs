@@ -3,7 +3,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use motet_syntax::{FileId, Syntax, Severity, Source, print, read};
+use motet_syntax::{FileId, Severity, Source, Syntax, print, read};
 
 fuzz_target!(|text: &str| {
     let parsed = read(&Source::new("fuzz", text), FileId(0));

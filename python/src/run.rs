@@ -127,7 +127,6 @@ impl Project {
         let run = finished(py, run)?;
         Ok((Some((run, prepared)), findings))
     }
-
 }
 
 #[pymethods]
