@@ -425,7 +425,8 @@ impl Agent {
 
     /// Takes up a run that goes on from an agent before this one, so that it is told and can be stopped.
     fn take_up(&self) {
-        let running = folders(&self.root.join("orders")).into_iter().find(OrderFolder::is_running);
+        let is_left = |folder: &OrderFolder| folder.is_running() && folder.order().is_some();
+        let running = folders(&self.root.join("orders")).find(is_left);
         let current = |folder: OrderFolder| {
             let (order, step) = (folder.id(), String::new());
             Current { order, folder, step, question: None, is_followed: false }
@@ -455,7 +456,7 @@ impl Agent {
         for folder in folders(&self.root.join("orders")) {
             let order = folder.id();
             let mark = folder.0.join("shipped");
-            if mark.exists() {
+            if mark.exists() || folder.order().is_none() {
                 continue;
             }
             let is_over = folder.result().is_some();
@@ -471,12 +472,10 @@ impl Agent {
     }
 }
 
-fn folders(root: &Path) -> Vec<OrderFolder> {
+/// Folders of orders, also those of which no order is written yet.
+fn folders(root: &Path) -> impl Iterator<Item = OrderFolder> {
     let entries = std::fs::read_dir(root).into_iter().flatten();
-    entries
-        .filter_map(|entry| Some(OrderFolder(entry.ok()?.path())))
-        .filter(|folder| folder.order().is_some())
-        .collect()
+    entries.filter_map(|entry| Some(OrderFolder(entry.ok()?.path())))
 }
 
 /// Id that words claim to have, whoever signed them.

@@ -10,8 +10,9 @@ use super::errors::{BodyFires, NeverFires};
 use super::evaluation::CallFrame;
 use super::{Mode, Prover, Volatile, Watched};
 use crate::analysis::{Domain, Enclosing};
+use crate::declare::EffectDef;
 use crate::facts::{Cause, Delta, FactKey, TruthSet};
-use crate::ir::{BlockSlot, Condition, Entity, Fact, Reaction, Step, StepId, StepKind, Term, When};
+use crate::ir::{BlockSlot, Call, Condition, Entity, Fact, Reaction, Step, StepId, StepKind, Term, When};
 
 impl<'a> Prover<'a> {
     /// Proves a monitor to a fixed point: its reactions may run in any state of the body, and again in what
@@ -142,10 +143,7 @@ impl<'a> Prover<'a> {
             let goes_on = matches!(when.reaction, Reaction::Pause { .. } | Reaction::Resume { .. });
             if goes_on {
                 // On each of the paths that have met the body may begin.
-                let condition = &when.condition;
-                self.state
-                    .partitions
-                    .retain(|partition| !partition.differs(|fluent| mentions(condition, fluent)));
+                self.forget_paths(&when.condition);
             }
             if self.assume_at(id, &when.condition, false) {
                 continue;
@@ -160,6 +158,11 @@ impl<'a> Prover<'a> {
             // It may also go on while the condition is unknown.
             self.doubt(&when.condition, Cause::step(id));
         }
+    }
+
+    /// Drops the paths that have met and that differ in what a condition mentions.
+    fn forget_paths(&mut self, condition: &Condition) {
+        self.state.partitions.retain(|partition| !partition.differs(|fluent| mentions(condition, fluent)));
     }
 
     /// Weakens the facts at the end of a body: it may end while a condition holds that has made it pause, or
@@ -386,7 +389,7 @@ impl<'a> Prover<'a> {
         // The paths that have met tell nothing of what the world has changed since.
         // It also fires when the condition has been unknown for long, and the step that it interrupts may
         // change what has set it off.
-        self.state.partitions.retain(|partition| !partition.differs(|fluent| mentions(condition, fluent)));
+        self.forget_paths(condition);
         if self.narrow(condition, Outcome::NotFalse, cause, CallFrame::default()) {
             self.doubt(condition, cause);
             return true;
@@ -433,16 +436,21 @@ impl<'a> Prover<'a> {
                 continue;
             }
             let Some(def) = self.library.primitive(call.primitive) else { continue };
-            let result = call.binds.and_then(|binding| self.symbols.of_binding(binding.index()));
-            let frame = CallFrame { args: &call.args, result, each: None };
             for effects in [&def.makes, &def.unsettles] {
-                let mut changed = Vec::new();
-                self.changes(effects, frame, &mut changed);
+                let changed = self.changes_of(call, effects);
                 let perhaps = |change: &FactChange| FactChange::perhaps(change.fluent, change.key);
                 let perhaps: Vec<_> = changed.iter().map(perhaps).collect();
                 self.unsettle(&perhaps, Cause::step(by));
             }
         }
+    }
+
+    /// Facts that effects of the primitive of a call change, with the call's arguments and its result.
+    fn changes_of(&self, call: &Call, effects: &[EffectDef]) -> Vec<FactChange> {
+        let result = call.binds.and_then(|binding| self.symbols.of_binding(binding.index()));
+        let mut changed = Vec::new();
+        self.changes(effects, CallFrame { args: &call.args, result, each: None }, &mut changed);
+        changed
     }
 
     /// Makes unknown what the steps have made that decide a condition.
@@ -460,9 +468,7 @@ impl<'a> Prover<'a> {
                 continue;
             };
             let Some(def) = self.library.primitive(call.primitive) else { continue };
-            let result = call.binds.and_then(|binding| self.symbols.of_binding(binding.index()));
-            let mut made = Vec::new();
-            self.changes(&def.makes, CallFrame { args: &call.args, result, each: None }, &mut made);
+            let made = self.changes_of(call, &def.makes);
             self.unsettle(&made, cause);
         }
     }

@@ -34,7 +34,7 @@ const RUNS: u64 = 24;
 const SHOWN: usize = 4;
 
 /// Most lines of a run that are shown.
-const MAX_TRACE: usize = 400;
+const MAX_TRACE: usize = 80;
 
 /// Sums over policies.
 #[derive(Clone, Default, PartialEq, Eq, Debug, Serialize)]
