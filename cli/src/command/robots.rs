@@ -286,7 +286,7 @@ fn describe(robot: &Robot, urdf: &Urdf) -> BodyReport {
         ))
     }));
     let mut described = BodyReport { lines, warnings: 0 };
-    postures(&machine, urdf, &mut described);
+    postures(&machine, &mut described);
     described
 }
 
@@ -294,7 +294,7 @@ fn describe(robot: &Robot, urdf: &Urdf) -> BodyReport {
 const FLOOR_TOLERANCE: f64 = 0.01;
 
 /// Describes contacts and parts below the floor in each posture.
-fn postures(machine: &RobotModel, urdf: &Urdf, described: &mut BodyReport) {
+fn postures(machine: &RobotModel, described: &mut BodyReport) {
     let scene = Scene::default();
     let mut world = SceneState::new(machine, &scene);
     for posture in machine.card().postures.keys() {
@@ -316,10 +316,10 @@ fn postures(machine: &RobotModel, urdf: &Urdf, described: &mut BodyReport) {
             let (link, other) = (link.escape_debug(), other.escape_debug());
             let instead = format!("give joints other positions under `[postures.{name}]`");
             let help = if is_own {
-                let pairs = touching(machine.card(), urdf, &world.robot.joints);
+                let found = touching(machine, &world.robot.joints);
                 format!(
                     "{instead}, or allow the contact by an SRDF, named as `srdf` in `[model]`: {}",
-                    add::srdf_lines(&pairs)
+                    add::srdf_lines(&found, "User")
                 )
             } else {
                 format!("{instead}, or a greater `height` in `[model]`")

@@ -25,6 +25,7 @@ mod journal;
 mod many;
 mod mcp;
 mod model;
+mod robots;
 mod run;
 mod serve;
 mod support;

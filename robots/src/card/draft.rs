@@ -35,13 +35,6 @@ pub struct DraftStance {
     pub touch: Option<[SmolStr; 2]>,
 }
 
-/// Tips of arms that the card of a draft leaves out: each is the last link of a chain with joints of its own,
-/// with the number of these. `tip` is the link of the hand of the card.
-#[must_use]
-pub fn other_arms(urdf: &Urdf, tip: &str) -> Vec<(SmolStr, usize)> {
-    super::draft_parts::other_arms(urdf, tip)
-}
-
 /// Writes the text of a card for the robot of a URDF. `file` is the path of the URDF relative to the folder
 /// of the card.
 ///

@@ -40,7 +40,7 @@ pub(super) struct DraftHand {
 }
 
 /// Least number of joints of an arm.
-const ARM: usize = 3;
+pub(super) const ARM: usize = 3;
 
 impl RobotParts {
     pub(super) fn find(urdf: &Urdf, srdf: Option<&Srdf>, tip: Option<&str>) -> Self {
@@ -75,7 +75,7 @@ fn way(urdf: &Urdf, link: usize) -> Vec<&Joint> {
 }
 
 /// Joints between the base and a link; all from the root if the base is not among them.
-fn beyond(urdf: &Urdf, base: usize, link: usize) -> Vec<&Joint> {
+pub(super) fn beyond(urdf: &Urdf, base: usize, link: usize) -> Vec<&Joint> {
     let mut way = way(urdf, link);
     let before = way.iter().position(|joint| joint.child == base).map_or(0, |at| at + 1);
     way.drain(..before);
@@ -83,7 +83,7 @@ fn beyond(urdf: &Urdf, base: usize, link: usize) -> Vec<&Joint> {
 }
 
 /// Checks whether a link has the name of a sensor.
-fn senses(name: &str) -> bool {
+pub(super) fn senses(name: &str) -> bool {
     let is_imu = |word: &str| word.eq_ignore_ascii_case("imu");
     has_word(name, &["camera", "sensor", "optical"])
         || name.split(|c: char| !c.is_ascii_alphabetic()).any(is_imu)
@@ -94,7 +94,7 @@ fn moves(joint: &Joint) -> bool {
 }
 
 /// Checks whether a joint moves between limits that differ.
-fn works(joint: &Joint) -> bool {
+pub(super) fn works(joint: &Joint) -> bool {
     moves(joint) && joint.limits.is_none_or(|limits| limits.upper > limits.lower)
 }
 
@@ -118,7 +118,7 @@ fn drive(urdf: &Urdf, is_planar: bool) -> (&'static str, &'static str) {
 }
 
 /// Words for the tip of a hand, best first.
-const TIPS: [&[&str]; 3] =
+pub(super) const TIPS: [&[&str]; 3] =
     [&["tcp", "tool0", "grasp", "ee_link", "end_effector"], &["palm"], &["hand", "gripper"]];
 
 /// Finds the hand that the SRDF describes, else that at the end of the longest arm.
@@ -189,32 +189,6 @@ fn guessed_tip(urdf: &Urdf, base: usize, stems: &[ArmStem]) -> Option<(usize, &'
     })
 }
 
-/// Tips of chains of at least [`ARM`] joints that the arm to a tip does not share.
-pub(super) fn other_arms(urdf: &Urdf, tip: &str) -> Vec<(SmolStr, usize)> {
-    let base = DraftBase::find(urdf).link;
-    let stems = stems(urdf, base);
-    let own = |link: usize| -> Vec<SmolStr> {
-        let steps = beyond(urdf, base, link);
-        steps.iter().filter(|joint| works(joint)).map(|joint| joint.name.clone()).collect()
-    };
-    let mut taken = urdf.links.iter().position(|link| link.name == tip).map_or_else(Vec::new, own);
-    let mut arms = Vec::new();
-    loop {
-        // The longest chain beyond what is taken, without fingers.
-        let ends = (0..urdf.links.len()).filter_map(|link| {
-            let stem = stems.get(link).filter(|stem| !stem.is_leg && stem.palm.is_none())?;
-            let joints: Vec<SmolStr> = own(link).into_iter().filter(|joint| !taken.contains(joint)).collect();
-            (stem.joints >= ARM && joints.len() >= ARM).then_some((joints, link))
-        });
-        let Some((joints, link)) = ends.max_by_key(|(joints, link)| (joints.len(), *link)) else {
-            return arms;
-        };
-        let name = urdf.links.get(link).map_or_else(SmolStr::default, |link| link.name.clone());
-        arms.push((name, joints.len()));
-        taken.extend(joints);
-    }
-}
-
 /// Measures the hand with a tip, whose own joints the SRDF may name.
 fn measured(urdf: &Urdf, base: usize, tip: usize, own: &[usize], why: String) -> DraftHand {
     let steps = beyond(urdf, base, tip);
@@ -242,17 +216,17 @@ fn measured(urdf: &Urdf, base: usize, tip: usize, own: &[usize], why: String) ->
 
 /// Joints between the base and a link.
 #[derive(Clone, Copy, Default)]
-struct ArmStem {
+pub(super) struct ArmStem {
     /// Number of joints that move.
-    joints: usize,
-    is_leg: bool,
+    pub(super) joints: usize,
+    pub(super) is_leg: bool,
     /// For a finger the link that carries the fingers: the one nearest to the base that carries two joints
     /// which follow each other or slide.
-    palm: Option<usize>,
+    pub(super) palm: Option<usize>,
 }
 
 /// Stem of each link; empty for links that the base does not carry. O(links + joints).
-fn stems(urdf: &Urdf, base: usize) -> Vec<ArmStem> {
+pub(super) fn stems(urdf: &Urdf, base: usize) -> Vec<ArmStem> {
     // For each link the number of its joints, and whether one of them is a mimic joint or slides.
     let mut carried = vec![(0_usize, false); urdf.links.len()];
     for joint in urdf.joints.iter().filter(|joint| joint.kind.has_one_position()) {

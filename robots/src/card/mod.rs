@@ -9,6 +9,7 @@ mod draft;
 mod draft_parts;
 mod errors;
 pub mod model;
+mod other_arms;
 mod quantity;
 mod read;
 mod shape;
@@ -16,8 +17,9 @@ pub mod wire;
 
 pub(crate) use body::JointPosition;
 pub use body::{ModelFile, fit, missing};
-pub use draft::{DraftInputs, DraftStance, draft, other_arms};
+pub use draft::{DraftInputs, DraftStance, draft};
 pub use errors::CODES;
 pub use model::{BoundSpan, CardSpans, *};
+pub use other_arms::other_arms;
 pub use read::read;
 pub use wire::schema;

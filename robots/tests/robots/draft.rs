@@ -123,6 +123,65 @@ fn draft_takes_the_hand_of_the_srdf() {
 }
 
 #[test]
+fn other_arms_are_long_chains_and_short_ones_with_a_tool() {
+    let links = [
+        "base",
+        "a1",
+        "a2",
+        "a3",
+        "a_tool0",
+        "a_finger",
+        "b1",
+        "b2",
+        "b3",
+        "b_end",
+        "c1",
+        "c_gripper",
+        "c_gripper_finger",
+        "d_neck",
+        "d_camera",
+        "e_suction_cup",
+        "f_wheel",
+        "f_tool",
+        "door",
+        "door_handle",
+    ];
+    let joints = [
+        // The arm of the card, whose own fingers are no arm.
+        "revolute base a1",
+        "revolute a1 a2 0 1 0",
+        "revolute a2 a3 0 1 0",
+        "fixed a3 a_tool0",
+        "prismatic a_tool0 a_finger 1 0 0",
+        // A long one without a tool, and a gripper on two joints.
+        "revolute base b1",
+        "revolute b1 b2 0 1 0",
+        "revolute b2 b3 0 1 0",
+        "fixed b3 b_end",
+        "revolute base c1",
+        "revolute c1 c_gripper 0 1 0",
+        "prismatic c_gripper c_gripper_finger 1 0 0",
+        // Neither a neck nor a wheel nor a door is an arm; a suction cup on one joint is.
+        "revolute base d_neck",
+        "fixed d_neck d_camera",
+        "prismatic base e_suction_cup",
+        "continuous base f_wheel",
+        "fixed f_wheel f_tool",
+        "revolute base door",
+        "fixed door door_handle",
+    ];
+    let urdf = made(&links, &joints);
+    let arms = |tip: &str| -> Vec<(String, usize)> {
+        card::other_arms(&urdf, tip).into_iter().map(|(tip, joints)| (tip.to_string(), joints)).collect()
+    };
+    let own = |tip: &str, joints: usize| (tip.to_owned(), joints);
+    let short = [own("c_gripper", 2), own("e_suction_cup", 1)];
+    assert_eq!(arms("a_tool0"), [&[own("b_end", 3)][..], &short].concat());
+    assert_eq!(arms("c_gripper"), [own("b_end", 3), own("a_tool0", 3), own("e_suction_cup", 1)]);
+    assert_eq!(arms(""), [&[own("b_end", 3), own("a_tool0", 3)][..], &short].concat());
+}
+
+#[test]
 fn draft_is_valid_toml_for_any_names() {
     // What cannot be seen, turns the direction of writing, colours a terminal, combines, or ends a line.
     for odd in ["\u{200b}", "\u{202e}", "&#9;", "e\u{301}", "&quot;\\&apos;", "&#10;x", "\u{7f}", "\u{e0001}"]

@@ -7,13 +7,14 @@ mod project;
 mod robot;
 mod saved;
 mod simulation;
+mod touching;
 
 pub use config::{CONFIG, find_config, read_config};
 pub use error::{DiagnosticSink, Discard, ProjectError, reason, require};
 pub use project::{
     DOCUMENT, Project, ProjectBuilder, ProjectSession, SessionInputs, named_robot, open_robot, read_scene,
 };
-pub use robot::{RobotFiles, robot_names};
-pub use robot::{find_stance, touching};
+pub use robot::{RobotFiles, find_stance, robot_names};
 pub use saved::{SavedAddress, SavedDriver, SavedProject, SavedSimulator};
 pub use simulation::{SimulationInputs, read_profile};
+pub use touching::{Touching, touching};

@@ -15,7 +15,6 @@ use motet_robots::scene::Scene;
 use motet_robots::srdf;
 use motet_robots::urdf::{self, Urdf};
 use motet_syntax::{Sources, suggest};
-use smol_str::SmolStr;
 
 use crate::error::{DiagnosticSink, ProjectError, invalid, require};
 use crate::files::{add_source, is_inline, read_optional, read_small};
@@ -326,31 +325,6 @@ pub fn find_stance(robot: &Robot, urdf: &Urdf) -> DraftStance {
         if against == Some(Against::Floor) { above(&machine, |_| true, MIN_CLEARANCE + 1e-3) } else { 0.0 };
     let above = (height > 0.0).then(|| posture(&raised(robot, urdf, height), height).0);
     above.filter(|above| above.touch.is_none()).unwrap_or(stance)
-}
-
-/// Greatest number of pairs that [`touching`] looks for.
-const PAIRS: usize = 200;
-
-/// All pairs of links of the robot that touch each other with its joints at some positions, none of which a
-/// card's SRDF allows. Beyond 200 pairs it stops.
-#[must_use]
-pub fn touching(robot: &Robot, urdf: &Urdf, joints: &[f64]) -> Vec<[SmolStr; 2]> {
-    let (mut urdf, mut pairs) = (urdf.clone(), Vec::new());
-    while pairs.len() < PAIRS {
-        let machine = RobotModel::new(robot, &urdf);
-        let scene = Scene::default();
-        let world = SceneState::new(&machine, &scene);
-        let room = QueryContext::new(&machine, &scene, &world);
-        let state = Configuration { base: [0.0; 3], joints: joints.to_vec() };
-        let contact = room.contact(&state, AllowedCollisions::default());
-        let Some(contact) = contact.filter(|contact| contact.is_own) else { break };
-        let at = |name: &str| urdf.links.iter().position(|link| link.name == name);
-        let Some(pair) = at(&contact.link).zip(at(&contact.other)) else { break };
-        // Allowed from now on, so that the next pair shows.
-        urdf.may_touch.extend([[pair.0, pair.1], [pair.1, pair.0]]);
-        pairs.push([contact.link, contact.other]);
-    }
-    pairs
 }
 
 /// Robot model with its base link raised to `height_m` above the floor.

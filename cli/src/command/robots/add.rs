@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use motet_geometry::planning::RobotModel;
 use motet_project::files::{add_source, read_small};
-use motet_project::{Discard, RobotFiles, find_stance, require, touching};
+use motet_project::{Discard, RobotFiles, Touching, find_stance, require, touching};
 use motet_robots::card::{self, DraftInputs, Robot};
 use motet_robots::srdf::{self, Srdf};
 use motet_robots::urdf::{self, Urdf, UrdfShape};
@@ -94,9 +94,10 @@ pub(super) fn add(inputs: &AddInputs<'_>, report: &mut Report) -> Result<Exit, C
         ));
         if let Some((card, body)) = body_of(folder, &text) {
             let machine = RobotModel::new(&card, &body);
-            let pairs = touching(&card, &body, machine.rest());
-            if !pairs.is_empty() {
-                report.out.line(&format!("  help: an SRDF may allow it: {}", srdf_lines(&pairs)));
+            let found = touching(&machine, machine.rest());
+            if !found.pairs.is_empty() {
+                let lines = srdf_lines(&found, "Default");
+                report.out.line(&format!("  help: an SRDF may allow it: {lines}"));
             }
         }
     }
@@ -158,13 +159,17 @@ fn foreign_folders(files: &[Option<&Path>], folder: &Path) -> Vec<String> {
     folders.iter().map(|folder| folder.display().to_string()).collect()
 }
 
-/// Lines of an SRDF that allow pairs of links to touch.
-pub(super) fn srdf_lines(pairs: &[[SmolStr; 2]]) -> String {
+/// Lines of an SRDF that allow pairs of links to touch, with the reason that `MoveIt` gives for such lines.
+pub(super) fn srdf_lines(found: &Touching, reason: &str) -> String {
     let line = |[one, other]: &[SmolStr; 2]| {
         let (one, other) = (one.escape_debug(), other.escape_debug());
-        format!("`<disable_collisions link1=\"{one}\" link2=\"{other}\"/>`")
+        format!("`<disable_collisions link1=\"{one}\" link2=\"{other}\" reason=\"{reason}\"/>`")
     };
-    pairs.iter().map(line).collect::<Vec<_>>().join(" ")
+    let mut lines: Vec<String> = found.pairs.iter().map(line).collect();
+    if found.more > 0 {
+        lines.push(format!("and {} more", count(found.more, "pair")));
+    }
+    lines.join(" ")
 }
 
 /// Tells the links whose meshes were not read: motions know no shape of them.

@@ -9,8 +9,8 @@ use crate::collision::Solid;
 use crate::planning::context::QueryContext;
 use crate::planning::query::ContactTally;
 use crate::planning::scene::{
-    AllowedCollisions, Configuration, Contact, ContactTarget, HandModel, MIN_CLEARANCE, Padding, above_floor,
-    plane,
+    AllowedCollisions, Configuration, Contact, ContactTarget, HandModel, MIN_CLEARANCE, Padding, RobotModel,
+    above_floor, plane,
 };
 use crate::simd::{BatchPair, NearPair, ObbSet, PairTarget, PosedBatch};
 
@@ -173,6 +173,41 @@ impl QueryContext<'_> {
         allowed: AllowedCollisions,
     ) -> Result<(), Contact> {
         self.along(from, to).edge(from, to, allowed)
+    }
+}
+
+impl RobotModel {
+    /// All pairs of links of the robot that touch each other in a configuration and may not, by their indices
+    /// in the tree, the lower first, sorted, each once. O(parts²).
+    ///
+    /// ```
+    /// use motet_geometry::planning::{Configuration, RobotModel};
+    /// use motet_robots::builtin::{self, RobotWithBody};
+    ///
+    /// let RobotWithBody { robot, urdf } = builtin::robot("hsr").unwrap();
+    /// let model = RobotModel::new(&robot, &urdf);
+    /// let rest = Configuration { base: [0.0; 3], joints: model.rest().to_vec() };
+    /// assert!(model.own_contacts(&rest).is_empty());
+    /// ```
+    #[must_use]
+    pub fn own_contacts(&self, configuration: &Configuration) -> Vec<[usize; 2]> {
+        let (body, parts) = (self.body(), self.body().parts());
+        let placed = body.placed(&self.map_from_links(configuration));
+        let met = body.pairs().iter().filter_map(|[one, other]| {
+            let (a, b) = (parts.get(*one)?, parts.get(*other)?);
+            let is_met = is_nearer(
+                placed.get(*one)?,
+                a.solid.reach(),
+                placed.get(*other)?,
+                b.solid.reach(),
+                MIN_CLEARANCE,
+            );
+            is_met.then_some([a.link.min(b.link), a.link.max(b.link)])
+        });
+        let mut met: Vec<[usize; 2]> = met.collect();
+        met.sort_unstable();
+        met.dedup();
+        met
     }
 }
 
