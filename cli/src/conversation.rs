@@ -46,7 +46,7 @@ pub(crate) fn converse(
         None | Some("terminal") => &["stop", "hold", "answer", "say"],
         Some(_) => &["stop", "hold"],
     };
-    let page = LivePage::shared(args.page, opened, takes)?;
+    let page = LivePage::shared(&args.page, opened, takes)?;
     let operator = Rc::new(OperatorInput::read(&args.ask, args.live, page.as_ref())?);
     let mut prompt = OperatorPrompt { input: Rc::clone(&operator), page: page.clone() };
     let record = args.record.as_deref().map(ConversationRecord::create).transpose()?;

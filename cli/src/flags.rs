@@ -274,13 +274,16 @@ pub(crate) fn duration(text: &str) -> Result<f64, String> {
 }
 
 /// Live page of a run.
-#[derive(Args, Clone, Copy, Debug)]
+#[derive(Args, Clone, Debug)]
 pub(crate) struct PageArgs {
     /// Show the run on a page in a browser, which can answer, pause and stop it; at a port or an address
     /// [default: a free port of 127.0.0.1]
     #[arg(long, value_name = "ADDRESS", num_args = 0..=1, require_equals = true, default_missing_value = "",
           value_parser = address)]
     pub(crate) view: Option<SocketAddr>,
+    /// Write the address of the page, with its token, to a file that only its owner reads, and print it nowhere
+    #[arg(long, value_name = "FILE", requires = "view")]
+    pub(crate) view_file: Option<PathBuf>,
 }
 
 /// Reads the address of a page: a port, an address, or both. Without one, a free port of this machine.

@@ -132,6 +132,23 @@ pub(crate) fn replace_with<T>(
     })
 }
 
+/// Writes a new file that only its owner reads, in place of an old one.
+pub(crate) fn replace_secret(path: &Path, text: &str) -> Result<(), CliError> {
+    let cannot = |source| CliError::Write { path: path.to_owned(), source };
+    let mut beside = path.to_owned().into_os_string();
+    beside.push(format!(".{}.partial", std::process::id()));
+    let mut options = File::options();
+    options.write(true).create_new(true);
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
+    let mut file = options.open(&beside).map_err(cannot)?;
+    let written = file.write_all(text.as_bytes()).and_then(|()| fs::rename(&beside, path));
+    written.map_err(|source| {
+        let _ = fs::remove_file(&beside);
+        cannot(source)
+    })
+}
+
 /// Writes a line to stderr. Errors are ignored: nobody is left to read of them.
 pub(crate) fn note(text: &str) {
     let _ = writeln!(io::stderr().lock(), "{text}");

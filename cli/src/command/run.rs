@@ -131,7 +131,7 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
     let wanted = RunSubject { run: &run, policy: Some((&graph, &parsed)), opened };
     let ReadyDriver { mut driver, saved, clock, speed, settings, .. } =
         open_driver(&args.driver, &args.session.environment, &wanted, report)?;
-    let page = LivePage::shared(args.page, opened, TAKES)?;
+    let page = LivePage::shared(&args.page, opened, TAKES)?;
     let written = (text.text.clone(), parsed.syntax);
     page.iter().for_each(|page| page.borrow_mut().text(text.clone()));
     let start = start_state(opened.scene.as_ref());
@@ -398,7 +398,7 @@ fn resumed_page(
 ) -> Result<Option<ResumedPage>, CliError> {
     let Some(address) = args.page.view else { return Ok(None) };
     let opened = session(folder, report).map(Arc::new);
-    let mut page = LivePage::start(address, opened.as_deref(), TAKES)?;
+    let mut page = LivePage::start(address, args.page.view_file.as_deref(), opened.as_deref(), TAKES)?;
     if let Some(text) = recorded_text(folder) {
         page.text(text);
     }

@@ -99,7 +99,7 @@ fn show(args: &ViewArgs, report: &mut Report) -> Result<Exit, CliError> {
     if !path.is_dir() {
         return Err(CliError::Message(format!("`{}` is not a folder", path.display())));
     }
-    let mut page = LivePage::start(args.address, opened.as_ref(), &[])?;
+    let mut page = LivePage::start(args.address, None, opened.as_ref(), &[])?;
     catch_interrupts()?;
     while !is_interrupted() {
         let begun = Instant::now();

@@ -3,6 +3,7 @@
 use std::cell::RefCell;
 use std::io::{self, IsTerminal as _};
 use std::net::SocketAddr;
+use std::path::Path;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -17,7 +18,7 @@ use super::server::Server;
 use crate::error::CliError;
 use crate::flags::PageArgs;
 use crate::interrupt::{SLICE, is_interrupted};
-use crate::output::note;
+use crate::output::{note, replace_secret};
 use motet::page::feed::PageFeed;
 use motet::page::source::PolicyText;
 use motet::page::world::PageWorld;
@@ -40,14 +41,20 @@ pub(crate) struct LivePage {
 }
 
 impl LivePage {
-    /// Serves a page at an address, and says where. `takes` names the commands of its operator.
+    /// Serves a page at an address, and says where: in a file if one is given, otherwise on stderr. `takes` names
+    /// the commands of its operator.
     pub(crate) fn start(
         address: SocketAddr,
+        file: Option<&Path>,
         opened: Option<&ProjectSession>,
         takes: &[&str],
     ) -> Result<Self, CliError> {
         let hub = Arc::new(Hub::default());
         let server = Server::start(address, Arc::clone(&hub), None)?;
+        match file {
+            Some(file) => replace_secret(file, &server.url())?,
+            None => note(&format!("the page is at {}", server.url())),
+        }
         Ok(Self::served(server, hub, opened, takes))
     }
 
@@ -55,11 +62,11 @@ impl LivePage {
     pub(crate) fn workbench(address: SocketAddr, bench: Workbench) -> Result<Self, CliError> {
         let hub = Arc::new(Hub::default());
         let server = Server::start(address, Arc::clone(&hub), Some(bench))?;
+        note(&format!("the page is at {}", server.url()));
         Ok(Self::served(server, hub, None, &["ask"]))
     }
 
     fn served(server: Server, hub: Arc<Hub>, opened: Option<&ProjectSession>, takes: &[&str]) -> Self {
-        note(&format!("the page is at {}", server.url()));
         let mut page = Self::silent(hub, opened, takes);
         page.server = Some(server);
         page
@@ -67,11 +74,12 @@ impl LivePage {
 
     /// Page of the flags, if they ask for one.
     pub(crate) fn shared(
-        args: PageArgs,
+        args: &PageArgs,
         opened: &ProjectSession,
         takes: &[&str],
     ) -> Result<Option<SharedPage>, CliError> {
-        let page = args.view.map(|address| Self::start(address, Some(opened), takes));
+        let page =
+            args.view.map(|address| Self::start(address, args.view_file.as_deref(), Some(opened), takes));
         Ok(page.transpose()?.map(|page| Rc::new(RefCell::new(page))))
     }
 
