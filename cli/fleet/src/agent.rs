@@ -1,9 +1,9 @@
 //! `motet agent`: runs orders on a robot, lets policies take over, and reports. It goes on without the link.
 
-use crate::link::{Fleet, POLICIES, RESULTS, STATES, SWAPS, ServerArgs, name, within_message};
+use crate::link::{Fleet, RESULTS, STATES, ServerArgs, name, refusal, within_message};
 use crate::run::{Events, OrderFolder, RunSettings, tell_page};
 use crate::ship::Shipment;
-use crate::signed::{Trust, What, Words, open, read};
+use crate::signed::{SignedWords, TrustFile, UNTRUSTED, What, Words, is_name, open, verify};
 use async_nats::connection::State;
 use async_nats::jetstream::{AckKind, Message};
 use futures::StreamExt as _;
@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 use tokio::time::{sleep, timeout};
 
 /// Time between two looks at a run, and between two states that are told.
-const LOOKS: Duration = Duration::from_millis(50);
+pub(crate) const LOOKS: Duration = Duration::from_millis(50);
 const TELLS: Duration = Duration::from_secs(2);
 /// Time between two messages to the server that an order is still worked at.
 const WORKS: Duration = Duration::from_secs(5);
@@ -26,6 +26,9 @@ const RESUMES: u32 = 10;
 const MAX_WAIT: Duration = Duration::from_secs(8);
 /// Time for something that a run does with the server beside its work.
 const BESIDE: Duration = Duration::from_secs(2);
+
+/// Reason of the stop of a run whose order counts no more.
+const REVOKED: &str = "the key of the order is trusted no more: the run was stopped";
 
 #[derive(clap::Args, Debug)]
 pub(crate) struct AgentArgs {
@@ -70,11 +73,11 @@ struct Current {
 }
 
 /// What the tasks of an agent share.
-struct Agent {
-    robot: String,
-    root: PathBuf,
-    fleet: Fleet,
-    trust: Trust,
+pub(crate) struct Agent {
+    pub(crate) robot: String,
+    pub(crate) root: PathBuf,
+    pub(crate) fleet: Fleet,
+    pub(crate) trust: TrustFile,
     settings: RunSettings,
     current: Mutex<Option<Current>>,
     shipments: tokio::sync::Mutex<BTreeMap<String, Shipment>>,
@@ -82,7 +85,7 @@ struct Agent {
 
 /// Runs the agent until it is ended.
 pub(crate) async fn serve(args: AgentArgs) -> Result<u8, String> {
-    let trust = Trust::read(&args.trust)?;
+    let trust = TrustFile::open(&args.trust)?;
     let motet = args
         .motet
         .clone()
@@ -123,6 +126,7 @@ pub(crate) async fn serve(args: AgentArgs) -> Result<u8, String> {
             |agent| async move { agent.take_policies().await },
         )),
         tokio::spawn(forever(Arc::clone(&agent), "words", |agent| async move { agent.take_words().await })),
+        tokio::spawn(forever(Arc::clone(&agent), "trust", |agent| async move { agent.watch_trust().await })),
         tokio::spawn(forever(Arc::clone(&agent), "state", |agent| async move { agent.tell_state().await })),
         tokio::spawn(forever(
             Arc::clone(&agent),
@@ -186,57 +190,83 @@ impl Agent {
 
     /// Carries an order out, however often it is delivered.
     async fn carry_out(&self, message: &Message) -> Result<(), String> {
-        let words = match read(&message.payload, &self.trust, &self.robot) {
-            Ok(words) => words,
+        let order = match verify(&message.payload, &self.robot) {
+            Ok(order) => order,
             Err(why) => return self.refuse(message, &why).await,
         };
-        let id = words.id.clone();
-        let folder = OrderFolder(self.root.join("orders").join(&id));
+        let words = &order.words;
+        let folder = self.folder(&words.id);
         let before = folder.order();
-        if before.as_ref().is_some_and(|before| before.what != words.what) {
-            eprintln!("motet-fleet: an order is left out: `{id}` was the id of another one");
-            return message.double_ack().await.map_err(|error| error.to_string());
+        if before.as_ref().is_some_and(|before| before.words.what != words.what) {
+            return self.refuse(message, &format!("the id `{}` is that of another order", words.id)).await;
+        }
+        let has_begun = folder.result().is_some() || folder.has_begun() || folder.is_running();
+        if !self.trust.now().has(&order.key) {
+            // A run that has begun is not left to itself: it is followed while it stops.
+            if !has_begun || before.as_ref().is_none_or(|before| before.key != order.key) {
+                return self.refuse(message, UNTRUSTED).await;
+            }
+            if folder.result().is_none() {
+                folder.want_stop(REVOKED)?;
+            }
         }
         // An order whose time is over may have begun before: then it goes on.
-        if folder.result().is_none()
-            && !folder.has_begun()
-            && !folder.is_running()
-            && let Err(late) = words.check_time()
-        {
+        if !has_begun && let Err(late) = words.check_time() {
             return self.refuse(message, &late).await;
         }
         let folder =
-            if before.is_some() { folder } else { OrderFolder::create(&self.root.join("orders"), &words)? };
+            if before.is_some() { folder } else { OrderFolder::create(&self.root.join("orders"), &order)? };
         let result = match folder.result() {
             Some(result) => result,
             None => {
-                let result = self.run(&words, &folder, message).await?;
+                let result = self.run(words, &folder, message).await?;
                 folder.write("result.json", result.to_string().as_bytes())?;
                 result
             }
         };
         *self.current() = None;
-        self.ship(&id, &folder).await;
-        self.tell_result(&id, &result).await?;
+        self.ship(&words.id, &folder).await;
+        self.tell_result(&words.id, &words.id, &words.what.digest(), &result).await?;
         message.double_ack().await.map_err(|error| error.to_string())
     }
 
+    pub(crate) fn folder(&self, order: &str) -> OrderFolder {
+        OrderFolder(self.root.join("orders").join(order))
+    }
+
+    /// Refuses an order of which nothing has moved.
     async fn refuse(&self, message: &Message, why: &str) -> Result<(), String> {
         eprintln!("motet-fleet: an order is refused: {}", why.escape_debug());
-        if let Some(id) = claimed_id(&message.payload) {
-            self.tell_result(&id, &json!({"state": "refused", "why": why})).await?;
+        if let Some((id, digest)) = claimed(&message.payload) {
+            let result = json!({"state": "refused", "why": why});
+            let folder = self.folder(&id);
+            let is_own = |before: &SignedWords| {
+                verify(&message.payload, &self.robot).is_ok_and(|order| order == *before)
+            };
+            match folder.order() {
+                None => self.tell_result(&id, &id, &digest, &result).await?,
+                // It was taken before, and the agent was ended before it began.
+                Some(before) if is_own(&before) && folder.result().is_none() => {
+                    folder.write("result.json", result.to_string().as_bytes())?;
+                    self.tell_result(&id, &id, &digest, &result).await?;
+                }
+                // The result of the order that has this id stays.
+                Some(_) => self.tell_result(&refusal(&id, &digest), &id, &digest, &result).await?,
+            }
         }
         message.double_ack().await.map_err(|error| error.to_string())
     }
 
-    async fn tell_result(&self, order: &str, result: &Value) -> Result<(), String> {
+    /// Tells a result under a name in the bucket of results.
+    async fn tell_result(&self, name: &str, order: &str, digest: &str, result: &Value) -> Result<(), String> {
         let bucket = self.fleet.bucket(RESULTS).await?;
         let mut told = result.clone();
         if let Some(fields) = told.as_object_mut() {
             fields.insert("robot".to_owned(), json!(self.robot));
             fields.insert("order".to_owned(), json!(order));
+            fields.insert("digest".to_owned(), json!(digest));
         }
-        let key = format!("{}.{order}", self.robot);
+        let key = format!("{}.{name}", self.robot);
         let told = within_message(told).to_string().into();
         bucket.put(key, told).await.map(|_| ()).map_err(|error| error.to_string())
     }
@@ -308,58 +338,9 @@ impl Agent {
         }
     }
 
-    // Policies that take over.
-
-    async fn take_policies(&self) -> Result<(), String> {
-        let bucket = self.fleet.bucket(POLICIES).await?;
-        let results = self.fleet.bucket(SWAPS).await?;
-        let mut policies = bucket.watch(&self.robot).await.map_err(|error| error.to_string())?;
-        while let Some(entry) = policies.next().await {
-            let entry = entry.map_err(|error| error.to_string())?;
-            let result = self.swap(&entry.value).await;
-            let (id, mut told) = match result {
-                Ok((id, told)) => (id, told),
-                Err(why) => (claimed_id(&entry.value).unwrap_or_default(), json!({"problem": why})),
-            };
-            if let Some(fields) = told.as_object_mut() {
-                fields.insert("id".to_owned(), json!(id));
-            }
-            let told = within_message(told).to_string().into();
-            results.put(&self.robot, told).await.map_err(|error| error.to_string())?;
-        }
-        Err("the watch of the policies has ended".to_owned())
-    }
-
-    /// Lets a policy take over; its id, with what became of it.
-    async fn swap(&self, bytes: &[u8]) -> Result<(String, Value), String> {
-        let words = open(bytes, &self.trust, &self.robot)?;
-        let What::Swap { order, policy } = words.what else {
-            return Err("the words have no policy".to_owned());
-        };
-        // A policy that was offered once is not offered again, also not to a later order.
-        let swaps = self.root.join("swaps");
-        let wrong = |error: std::io::Error| format!("{}: {error}", swaps.display());
-        std::fs::create_dir_all(&swaps).map_err(wrong)?;
-        let marked = std::fs::File::create_new(swaps.join(&words.id));
-        marked.map_err(|error| match error.kind() {
-            std::io::ErrorKind::AlreadyExists => "the policy has been offered before".to_owned(),
-            _ => wrong(error),
-        })?;
-        let current = self.current().clone().filter(|current| current.order == order);
-        let current = current.ok_or_else(|| format!("the order `{order}` does not run"))?;
-        let answer = tell_page(&current.folder, "/swap", policy, "text/plain").await;
-        let told = match answer {
-            Ok(mut swapped) => {
-                if let Some(fields) = swapped.as_object_mut() {
-                    fields.insert("order".to_owned(), json!(current.order));
-                }
-                swapped
-            }
-            Err(refusal) => refusal,
-        };
-        // For who looks at the order later: nothing here reads it.
-        current.folder.write(&format!("swap-{}.json", words.id), told.to_string().as_bytes())?;
-        Ok((words.id, told))
+    /// Checks whether the run of an order goes on.
+    pub(crate) fn runs(&self, order: &str) -> bool {
+        self.current().as_ref().is_some_and(|current| current.order == order)
     }
 
     // Words of operators.
@@ -387,13 +368,35 @@ impl Agent {
     /// Stops the run. If its process does not answer now, the run stops as soon as one does.
     async fn stop(&self) -> Result<Value, String> {
         let folder = self.current().clone().ok_or("no run goes on")?.folder;
-        folder.want_stop()?;
+        folder.want_stop("")?;
         let is_told = tell_page(&folder, "/stop", String::new(), "text/plain").await.is_ok();
         Ok(json!({"order": folder.id(), "is_told": is_told}))
     }
 
+    /// Stops the run if the key of its order is trusted no more. A file that is being written may lack it for a
+    /// moment, so two looks count.
+    async fn watch_trust(&self) -> Result<(), String> {
+        let revoked = || {
+            let current = self.current().clone()?;
+            // The task that follows the run tells it again.
+            let is_told = current.is_followed && current.folder.is_stopped();
+            let order = current.folder.order().filter(|_| !is_told)?;
+            (!self.trust.now().has(&order.key)).then_some(current.folder)
+        };
+        let first = revoked();
+        sleep(TELLS).await;
+        if let Some((first, folder)) = first.zip(revoked())
+            && first.0 == folder.0
+        {
+            eprintln!("motet-fleet: {}: {REVOKED}", folder.id());
+            folder.want_stop(REVOKED)?;
+            let _ = tell_page(&folder, "/stop", String::new(), "text/plain").await;
+        }
+        Ok(())
+    }
+
     async fn answer(&self, bytes: &[u8]) -> Result<Value, String> {
-        let words = open(bytes, &self.trust, &self.robot)?;
+        let words = open(bytes, &self.trust.now(), &self.robot)?;
         let What::Answer { order, question, text } = words.what else {
             return Err("the words are no answer".to_owned());
         };
@@ -478,9 +481,11 @@ fn folders(root: &Path) -> impl Iterator<Item = OrderFolder> {
     entries.filter_map(|entry| Some(OrderFolder(entry.ok()?.path())))
 }
 
-/// Id that words claim to have, whoever signed them.
-fn claimed_id(bytes: &[u8]) -> Option<String> {
+/// Id that words claim to have, and the digest of what they say, whoever signed them.
+pub(crate) fn claimed(bytes: &[u8]) -> Option<(String, String)> {
     let signed: Value = serde_json::from_slice(bytes).ok()?;
     let body: Value = serde_json::from_str(signed.get("body")?.as_str()?).ok()?;
-    body.get("id")?.as_str().filter(|id| crate::signed::is_name(id)).map(str::to_owned)
+    let id = body.get("id")?.as_str().filter(|id| is_name(id))?.to_owned();
+    let what: Option<What> = serde_json::from_value(body.get("what")?.clone()).ok();
+    Some((id, what.map(|what| what.digest()).unwrap_or_default()))
 }

@@ -216,6 +216,12 @@ pub(crate) fn say(text: &str) {
     let _ = writeln!(std::io::stdout(), "{text}");
 }
 
+/// Name in the bucket of results for the refusal of words with the id of another order. The result of that one
+/// stays where it is.
+pub(crate) fn refusal(order: &str, digest: &str) -> String {
+    format!("{order}={digest}")
+}
+
 /// Reads the name of a robot or an order.
 pub(crate) fn name(text: &str) -> Result<String, String> {
     if is_name(text) {

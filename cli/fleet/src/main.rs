@@ -2,11 +2,14 @@
 
 mod agent;
 mod archive;
+mod journal;
 mod link;
 mod operator;
+mod results;
 mod run;
 mod ship;
 mod signed;
+mod swap;
 mod view;
 
 use clap::{Parser, Subcommand};

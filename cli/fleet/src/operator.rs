@@ -1,9 +1,10 @@
 //! `motet fleet`: what an operator does with the robots.
 
-use crate::link::{ANSWERS, Fleet, JOURNALS, POLICIES, RESULTS, STATES, SWAPS, ServerArgs, name, say};
-use crate::ship::{PART, SEQ};
+use crate::journal;
+use crate::link::{ANSWERS, Fleet, POLICIES, RESULTS, STATES, SWAPS, ServerArgs, name, refusal, say};
 use crate::signed::{What, new_id, new_key, now, private_key, sign};
-use async_nats::jetstream::consumer::{self, AckPolicy, DeliverPolicy};
+use async_nats::jetstream::kv;
+use ed25519_dalek::SigningKey;
 use futures::StreamExt as _;
 use serde_json::{Value, json};
 use std::io::Read as _;
@@ -184,48 +185,74 @@ async fn send(fleet: &Fleet, args: &SendArgs) -> Result<u8, String> {
     let state = args.state.as_deref().map(serde_json::from_str).transpose();
     let state = state.map_err(|error| format!("--state: {error}"))?;
     let what = What::Run { policy: read(&args.policy)?, state };
+    let digest = what.digest();
     let signed = sign(&private_key(&args.key)?, &id, &args.robot, args.life, what)?;
     let bucket = fleet.bucket(RESULTS).await?;
-    let key = format!("{}.{id}", args.robot);
-    let mut results = bucket.watch(&key).await.map_err(|error| error.to_string())?;
+    let keys = [id.clone(), refusal(&id, &digest)].map(|name| format!("{}.{name}", args.robot));
+    // The robot would refuse it, too, once it has done what waits before.
+    if let Some(other) = latest(&bucket, &keys[0]).await?.filter(|result| !is_of(result, &digest)) {
+        let why = format!("the id `{id}` is that of another order");
+        let refused = json!({"state": "refused", "why": why, "robot": args.robot, "order": id,
+            "digest": digest, "other": other});
+        return exit_code(&refused);
+    }
+    let mut results = Vec::new();
+    for key in &keys {
+        results.push(bucket.watch(key).await.map_err(|error| error.to_string())?);
+    }
+    let mut results = futures::stream::select_all(results);
     let mut headers = async_nats::HeaderMap::new();
-    // The server takes an order once, however often it is sent.
-    headers.insert("Nats-Msg-Id", key.as_str());
+    // The server takes an order once, however often it is sent. Another one with its id reaches the robot,
+    // which refuses it.
+    headers.insert("Nats-Msg-Id", keys[1].as_str());
     let sent =
         fleet.js.publish_with_headers(format!("motet.orders.{}", args.robot), headers, signed.into()).await;
     let acknowledged = sent.map_err(|error| error.to_string())?.await;
     let acknowledged = acknowledged.map_err(|error| format!("the server did not take the order: {error}"))?;
     if acknowledged.duplicate {
-        eprintln!("motet-fleet: an order of this id was sent before; no other one runs");
+        eprintln!("motet-fleet: this order was sent before; it runs once");
     }
     if !args.wait {
         say(&id);
         return Ok(0);
     }
     // The order may have been sent before, and be over.
-    let told = bucket.get(&key).await.map_err(|error| error.to_string())?;
-    if let Some(code) = told.as_deref().and_then(exit_code) {
-        return code;
+    let known = if acknowledged.duplicate { &keys[..] } else { &keys[..1] };
+    for key in known {
+        if let Some(result) = latest(&bucket, key).await?.filter(|result| is_of(result, &digest)) {
+            return exit_code(&result);
+        }
     }
     while let Some(entry) = results.next().await {
         let entry = entry.map_err(|error| error.to_string())?;
-        if let Some(code) = exit_code(&entry.value) {
-            return code;
+        let result: Option<Value> = serde_json::from_slice(&entry.value).ok();
+        if let Some(result) = result.filter(|result| is_of(result, &digest)) {
+            return exit_code(&result);
         }
     }
     Err("the link was cut before the result came".to_owned())
 }
 
-/// Prints the result of an order; the exit code. `None` if it is none.
-fn exit_code(result: &[u8]) -> Option<Result<u8, String>> {
-    let result: Value = serde_json::from_slice(result).ok()?;
+/// Result of a key.
+async fn latest(bucket: &kv::Store, key: &str) -> Result<Option<Value>, String> {
+    let told = bucket.get(key).await.map_err(|error| error.to_string())?;
+    Ok(told.and_then(|told| serde_json::from_slice(&told).ok()))
+}
+
+/// Checks whether a result is that of an order with a digest, and not of another one with its id.
+fn is_of(result: &Value, digest: &str) -> bool {
+    result.get("digest").and_then(Value::as_str) == Some(digest)
+}
+
+/// Prints the result of an order; the exit code.
+fn exit_code(result: &Value) -> Result<u8, String> {
     let is_done = result.get("outcome") == Some(&json!("done"));
     let is_refused = result.get("state") == Some(&json!("refused"));
-    Some(report(&result).map(|_| match (is_done, is_refused) {
+    report(result).map(|_| match (is_done, is_refused) {
         (true, _) => 0,
         (_, true) => 1,
         (false, false) => 3,
-    }))
+    })
 }
 
 async fn swap(fleet: &Fleet, args: &SwapArgs) -> Result<u8, String> {
@@ -272,13 +299,22 @@ async fn ask(fleet: &Fleet, args: &AskArgs) -> Result<u8, String> {
         say(&format!("{words}\nquestion {order}/{question}"));
         return Ok(0);
     };
-    // The answer is for the question that the operator has read, whatever is open now.
+    let key = private_key(args.key.as_deref().ok_or("an answer needs --key")?)?;
+    report(&tell(fleet, &key, &args.robot, question, answer).await?)
+}
+
+/// Answers a question `ORDER/NUMBER`: the one that the operator has read, whatever is open now.
+pub(crate) async fn tell(
+    fleet: &Fleet,
+    key: &SigningKey,
+    robot: &str,
+    question: &str,
+    answer: &str,
+) -> Result<Value, String> {
     let (order, question) = question.split_once('/').ok_or("write --question ORDER/NUMBER")?;
     let (order, question) = (order.to_owned(), question.to_owned());
-    let key = private_key(args.key.as_deref().ok_or("an answer needs --key")?)?;
-    let what = What::Answer { order, question, text: answer.clone() };
-    let signed = sign(&key, &new_id()?, &args.robot, 60, what)?;
-    report(&fleet.request(&args.robot, "answer", signed).await?)
+    let what = What::Answer { order, question, text: answer.to_owned() };
+    fleet.request(robot, "answer", sign(key, &new_id()?, robot, 60, what)?).await
 }
 
 /// State of a robot as it told it last.
@@ -287,53 +323,9 @@ async fn state(fleet: &Fleet, robot: &str) -> Result<Value, String> {
     Ok(state.and_then(|bytes| serde_json::from_slice(&bytes).ok()).unwrap_or_default())
 }
 
-/// Lines of a journal from the server, checked for gaps.
-pub(crate) async fn lines(fleet: &Fleet, robot: &str, order: &str) -> Result<Vec<Vec<u8>>, String> {
-    let wrong = |error: String| format!("the journal: {error}");
-    let stream = fleet.js.get_stream(JOURNALS).await.map_err(|error| wrong(error.to_string()))?;
-    let config = consumer::pull::Config {
-        filter_subject: format!("motet.journal.{robot}.{order}"),
-        deliver_policy: DeliverPolicy::All,
-        ack_policy: AckPolicy::None,
-        ..consumer::pull::Config::default()
-    };
-    let mut consumer = stream.create_consumer(config).await.map_err(|error| wrong(error.to_string()))?;
-    let waiting = consumer.info().await.map_err(|error| wrong(error.to_string()))?.num_pending;
-    let mut lines: Vec<Vec<u8>> = Vec::new();
-    let mut messages = consumer.messages().await.map_err(|error| wrong(error.to_string()))?;
-    for _ in 0..waiting {
-        let message = messages.next().await.ok_or_else(|| wrong("it ends early".to_owned()))?;
-        let message = message.map_err(|error| wrong(error.to_string()))?;
-        let header = |name: &str| {
-            message.headers.as_ref().and_then(|headers| Some(headers.get(name)?.as_str().to_owned()))
-        };
-        let number: usize = header(SEQ)
-            .and_then(|text| text.parse().ok())
-            .ok_or_else(|| wrong("a line has no number".to_owned()))?;
-        let is_first = header(PART).is_none_or(|part| part.starts_with("0/"));
-        let whole = || message.payload.split_inclusive(|byte| *byte == b'\n').map(<[u8]>::to_vec);
-        match number {
-            _ if number == lines.len() && is_first => lines.extend(whole()),
-            // A further part of the last line, or the last line again after the link was cut.
-            _ if number + 1 == lines.len() && is_first => {
-                lines.truncate(number);
-                lines.extend(whole());
-            }
-            _ if number + 1 == lines.len() => lines[number].extend(message.payload.iter()),
-            _ => return Err(wrong(format!("line {} is followed by line {number}", lines.len()))),
-        }
-    }
-    Ok(lines)
-}
-
 async fn journal(fleet: &Fleet, args: &JournalArgs) -> Result<u8, String> {
-    let lines = lines(fleet, &args.robot, &args.order).await?;
-    if lines.is_empty() {
-        return Err("the server has no line of this journal".to_owned());
-    }
-    let wrong = |error: std::io::Error| format!("{}: {error}", args.folder.display());
-    std::fs::create_dir(&args.folder).map_err(wrong)?;
-    std::fs::write(args.folder.join("000000000000.journal"), lines.concat()).map_err(wrong)?;
+    let lines = journal::lines(fleet, &args.robot, &args.order, usize::MAX).await?;
+    journal::write(&lines, &args.folder)?;
     say(&format!("{} lines in {}; `motet replay` checks them", lines.len(), args.folder.display()));
     Ok(0)
 }

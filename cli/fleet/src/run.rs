@@ -1,6 +1,6 @@
 //! The run of one order: a process `motet run` with a journal, which goes on whatever becomes of the agent.
 
-use crate::signed::{What, Words};
+use crate::signed::{SignedWords, What};
 use serde_json::{Value, json};
 use std::fs::File;
 use std::io::{BufRead as _, BufReader, Read as _, Seek as _, SeekFrom, Write as _};
@@ -12,8 +12,10 @@ use tokio::process::{Child, Command};
 
 /// File with the events of a run. A process of the run locks it.
 const EVENTS: &str = "events.jsonl";
-/// File that is there once somebody wants the run to stop.
+/// File that is there once somebody wants the run to stop; it may have the reason.
 const STOP: &str = "stop";
+/// File with the address and the token of the page of a run, for its owner alone.
+const PAGE: &str = "page";
 /// Greatest number of bytes of events that are read at a time.
 const CHUNK: u64 = 1024 * 1024;
 /// Most findings of a result.
@@ -37,7 +39,8 @@ pub(crate) struct OrderFolder(pub(crate) PathBuf);
 
 impl OrderFolder {
     /// Makes the folder of an order, with the order in it, before anything moves.
-    pub(crate) fn create(root: &Path, words: &Words) -> Result<Self, String> {
+    pub(crate) fn create(root: &Path, order: &SignedWords) -> Result<Self, String> {
+        let words = &order.words;
         let folder = Self(root.join(&words.id));
         std::fs::create_dir_all(&folder.0).map_err(|error| format!("{}: {error}", folder.0.display()))?;
         if let What::Run { policy, state } = &words.what {
@@ -46,7 +49,7 @@ impl OrderFolder {
             }
             folder.write(policy_file(policy), policy.as_bytes())?;
         }
-        let order = serde_json::to_vec(words).map_err(|error| error.to_string())?;
+        let order = serde_json::to_vec(order).map_err(|error| error.to_string())?;
         folder.write("order.json", &order)?;
         Ok(folder)
     }
@@ -70,8 +73,8 @@ impl OrderFolder {
         serde_json::from_slice(&bytes).ok()
     }
 
-    /// The order, if it is there as a whole.
-    pub(crate) fn order(&self) -> Option<Words> {
+    /// The order with the key of who gave it, if it is there as a whole.
+    pub(crate) fn order(&self) -> Option<SignedWords> {
         serde_json::from_slice(&std::fs::read(self.0.join("order.json")).ok()?).ok()
     }
 
@@ -113,15 +116,19 @@ impl OrderFolder {
         self.0.join(STOP).exists()
     }
 
-    /// Notes that somebody wants the run to stop.
-    pub(crate) fn want_stop(&self) -> Result<(), String> {
-        self.write(STOP, b"")
+    /// Notes that somebody wants the run to stop, and why if there is more to say. The first reason counts.
+    pub(crate) fn want_stop(&self, why: &str) -> Result<(), String> {
+        if self.is_stopped() { Ok(()) } else { self.write(STOP, why.as_bytes()) }
     }
 
-    /// Address and token of the page of the run, from what its process has printed.
+    /// Reason of a stop.
+    fn stop_reason(&self) -> Option<String> {
+        std::fs::read_to_string(self.0.join(STOP)).ok().filter(|why| !why.is_empty())
+    }
+
+    /// Address and token of the page of the run.
     pub(crate) fn page(&self) -> Option<(String, String)> {
-        let text = std::fs::read_to_string(self.0.join("errors.log")).ok()?;
-        let address = text.lines().rev().find_map(|line| line.strip_prefix("the page is at "))?;
+        let address = std::fs::read_to_string(self.0.join(PAGE)).ok()?;
         let (page, token) = address.trim().split_once("/#")?;
         Some((page.to_owned(), token.to_owned()))
     }
@@ -137,6 +144,8 @@ impl OrderFolder {
         if !fs4::fs_std::FileExt::try_lock_exclusive(&events).unwrap_or(false) {
             return Err("the run goes on already".to_owned());
         }
+        // The page of a process before this one is gone.
+        let _ = std::fs::remove_file(self.0.join(PAGE));
         let is_resumed = self.has_begun();
         let mut command = Command::new(&settings.motet);
         command.arg("run");
@@ -163,7 +172,7 @@ impl OrderFolder {
         if let Some(speed) = &settings.speed {
             command.args(["--speed", speed]);
         }
-        command.args(["--view=127.0.0.1:0", "--format", "json"]);
+        command.args(["--view=127.0.0.1:0", "--format", "json"]).arg("--view-file").arg(self.0.join(PAGE));
         command.stdin(Stdio::null()).stdout(events).stderr(append("errors.log")?);
         // A signal for the agent is not one for the run.
         command.process_group(0);
@@ -181,7 +190,9 @@ impl OrderFolder {
         };
         if let Some(finished) = events.iter().rfind(named("finished")) {
             let outcome = finished.get("outcome").cloned().unwrap_or_default();
-            return Some(json!({"state": "ended", "outcome": outcome, "why": finished.get("why")}));
+            let stopped = self.stop_reason().filter(|_| outcome == "interrupted").map(Value::from);
+            let why = stopped.as_ref().or(finished.get("why"));
+            return Some(json!({"state": "ended", "outcome": outcome, "why": why}));
         }
         // Nothing is refused that may have moved: the run goes on, or it has failed.
         if self.has_begun() {
@@ -317,8 +328,12 @@ mod tests {
         std::fs::write(root.join(EVENTS), "{\"event\":\"finished\",\"outcome\":\"done\"}\n").unwrap();
         assert_eq!(folder.ending(Some(0)).unwrap()["outcome"], "done");
         assert!(!folder.is_stopped());
-        folder.want_stop().unwrap();
+        folder.want_stop("its key is trusted no more").unwrap();
+        folder.want_stop("").unwrap();
         assert!(folder.is_stopped());
+        assert_eq!(folder.ending(Some(0)).unwrap()["why"], Value::Null, "it was done before");
+        std::fs::write(root.join(EVENTS), "{\"event\":\"finished\",\"outcome\":\"interrupted\"}\n").unwrap();
+        assert_eq!(folder.ending(Some(0)).unwrap()["why"], "its key is trusted no more");
         std::fs::remove_dir_all(&root).unwrap();
     }
 

@@ -4,9 +4,11 @@
 use ed25519_dalek::{Signature, Signer as _, SigningKey, VerifyingKey};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
+use sha2::{Digest as _, Sha256};
 use std::fs::OpenOptions;
 use std::io::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 use std::time::{SystemTime, UNIX_EPOCH};
 
 /// Greatest size of signed words in bytes.
@@ -39,6 +41,15 @@ pub(crate) struct Words {
     pub(crate) what: What,
 }
 
+/// Words with the public key that signed them, whether or not a robot trusts it.
+#[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SignedWords {
+    /// Public key in hexadecimal digits.
+    pub(crate) key: String,
+    pub(crate) words: Words,
+}
+
 /// What a robot is to do.
 #[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
@@ -55,13 +66,56 @@ pub(crate) enum What {
     Answer { order: String, question: String, text: String },
 }
 
+impl What {
+    /// Digest by which two orders with the same id are told apart: 16 hexadecimal digits.
+    pub(crate) fn digest(&self) -> String {
+        let json = serde_json::to_vec(self).unwrap_or_default();
+        hex(&Sha256::digest(json)[..8])
+    }
+}
+
+/// File with the keys of people whose words a robot follows. It is read anew at each use, so that a key that is
+/// taken out of it counts no more.
+#[derive(Debug)]
+pub(crate) struct TrustFile {
+    path: PathBuf,
+    /// Keys of the last time, and the reason for which the file cannot be read since.
+    last: Mutex<(Trust, String)>,
+}
+
+impl TrustFile {
+    /// Opens a file that has a key.
+    pub(crate) fn open(path: &Path) -> Result<Self, String> {
+        let trust = Trust::read(path)?;
+        if trust.0.is_empty() {
+            return Err(format!("{} has no key", path.display()));
+        }
+        let path = std::path::absolute(path).map_err(|error| format!("{}: {error}", path.display()))?;
+        Ok(Self { path, last: Mutex::new((trust, String::new())) })
+    }
+
+    /// Keys of the file as it is now, or as it was when it could be read last.
+    pub(crate) fn now(&self) -> Trust {
+        let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
+        match Trust::read(&self.path) {
+            Ok(trust) => *last = (trust, String::new()),
+            Err(why) if why != last.1 => {
+                eprintln!("motet-fleet: trust: {}; the keys before count", why.escape_debug());
+                last.1 = why;
+            }
+            Err(_) => {}
+        }
+        last.0.clone()
+    }
+}
+
 /// Keys of people whose words a robot follows.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Trust(Vec<VerifyingKey>);
 
 impl Trust {
     /// Reads a file with a key a line: 64 hexadecimal digits, then a comment.
-    pub(crate) fn read(path: &Path) -> Result<Self, String> {
+    fn read(path: &Path) -> Result<Self, String> {
         let place = path.display();
         let text = std::fs::read_to_string(path).map_err(|error| format!("{place}: {error}"))?;
         let mut keys = Vec::new();
@@ -72,7 +126,12 @@ impl Trust {
             let key = bytes(word).and_then(|bytes| VerifyingKey::from_bytes(&bytes).ok());
             keys.push(key.ok_or_else(|| format!("{place}, line {}: no public key", at + 1))?);
         }
-        if keys.is_empty() { Err(format!("{place} has no key")) } else { Ok(Self(keys)) }
+        Ok(Self(keys))
+    }
+
+    /// Checks whether a public key, in hexadecimal digits, is one of these.
+    pub(crate) fn has(&self, key: &str) -> bool {
+        bytes(key).is_some_and(|key| self.0.iter().any(|own| *own.as_bytes() == key))
     }
 }
 
@@ -140,13 +199,22 @@ pub(crate) fn open(bytes_of: &[u8], trust: &Trust, robot: &str) -> Result<Words,
 
 /// Words of a trusted key for this robot, whether or not they still count.
 pub(crate) fn read(bytes_of: &[u8], trust: &Trust, robot: &str) -> Result<Words, String> {
+    let SignedWords { key, words } = verify(bytes_of, robot)?;
+    if trust.has(&key) { Ok(words) } else { Err(UNTRUSTED.to_owned()) }
+}
+
+/// Reason of a refusal.
+pub(crate) const UNTRUSTED: &str = "their key is not trusted";
+
+/// Words for this robot with a right signature, whoever signed them and whether or not they still count.
+pub(crate) fn verify(bytes_of: &[u8], robot: &str) -> Result<SignedWords, String> {
     if bytes_of.len() > MAX_BYTES {
         return Err(format!("they have more than {MAX_BYTES} bytes"));
     }
     let signed: Signed =
         serde_json::from_slice(bytes_of).map_err(|error| format!("they are not signed: {error}"))?;
-    let key = bytes(&signed.key).ok_or("their key is none")?;
-    let key = trust.0.iter().find(|own| *own.as_bytes() == key).ok_or("their key is not trusted")?;
+    let key = bytes(&signed.key).and_then(|bytes| VerifyingKey::from_bytes(&bytes).ok());
+    let key = key.ok_or("their key is none")?;
     let signature = bytes(&signed.signature)
         .map(|bytes| Signature::from_bytes(&bytes))
         .ok_or("their signature is none")?;
@@ -162,7 +230,7 @@ pub(crate) fn read(bytes_of: &[u8], trust: &Trust, robot: &str) -> Result<Words,
     if words.at > now() + CLOCKS || words.until > words.at + MAX_LIFE {
         return Err("their times are wrong".to_owned());
     }
-    Ok(words)
+    Ok(SignedWords { key: hex(key.as_bytes()), words })
 }
 
 /// True for names of robots and orders: 1 to 64 letters, digits, `_` and `-`.
@@ -229,6 +297,22 @@ mod tests {
     }
 
     #[test]
+    fn a_digest_tells_orders_apart_and_not_their_times() {
+        let what = |state: &str| What::Run {
+            policy: "policy a for hsr { done }".to_owned(),
+            state: serde_json::from_str(state).unwrap(),
+        };
+        let digest = what(r#"{"distance": 0.1}"#).digest();
+        assert_eq!(digest.len(), 16);
+        assert_ne!(digest, what(r#"{"distance": 0.2}"#).digest());
+        assert_ne!(digest, what("null").digest());
+        // It is the same on the robot: numbers are read as they were written.
+        let numbers = what(r#"{"a": 0.30000000000000004, "b": 1e-7, "c": 123456789.12345679}"#);
+        let signed = sign(&key(1), "order-1", "r", 60, numbers.clone()).unwrap();
+        assert_eq!(verify(&signed, "r").unwrap().words.what.digest(), numbers.digest());
+    }
+
+    #[test]
     fn words_that_count_no_more_are_read_and_not_opened() {
         let trust = Trust(vec![key(1).verifying_key()]);
         let what = What::Run { policy: String::new(), state: None };
@@ -249,7 +333,14 @@ mod tests {
         let path = folder.join("anna.key");
         let public = new_key(&path).unwrap();
         assert_eq!(hex(private_key(&path).unwrap().verifying_key().as_bytes()), public);
-        assert!(Trust::read(&folder.join("anna.pub")).is_ok());
+        let trust = TrustFile::open(&folder.join("anna.pub")).unwrap();
+        assert!(trust.now().has(&public));
+        // What cannot be read changes nothing; a file without the key does.
+        std::fs::write(folder.join("anna.pub"), "no key\n").unwrap();
+        assert!(trust.now().has(&public));
+        std::fs::write(folder.join("anna.pub"), "# nobody\n").unwrap();
+        assert!(!trust.now().has(&public));
+        assert!(TrustFile::open(&folder.join("anna.pub")).unwrap_err().contains("has no key"));
         assert!(new_key(&path).is_err(), "a key is never overwritten");
         #[cfg(unix)]
         {

@@ -31,7 +31,15 @@ if ! command -v nats-server >/dev/null; then
     exit 0
 fi
 CARGO_TARGET_DIR="$target/fleet" cargo build --locked --quiet --manifest-path "$root/cli/fleet/Cargo.toml"
-soak=(python3 soak.py --folder "$target/fleet-soak" --motet "$motet" --fleet "$target/fleet/debug/motet-fleet")
+page=()
+chromium="$(command -v chromium || command -v chromium-browser || command -v google-chrome || true)"
+if [ -n "$chromium" ] && command -v node >/dev/null && [ -d "$root/view/node_modules/playwright-core" ]; then
+    export CHROMIUM="$chromium"
+    page=(--page "$PWD/page.mjs")
+else
+    echo 'there is no Chromium with the packages of view/: the page is not looked at in a browser'
+fi
+soak=(python3 soak.py "${page[@]}" --folder "$target/fleet-soak" --motet "$motet" --fleet "$target/fleet/debug/motet-fleet")
 case "${1:-quick}" in
     quick) "${soak[@]}" --all ;;
     soak)

@@ -8,12 +8,13 @@ import random
 import shutil
 import signal
 import socket
-import statistics
 import subprocess
 import sys
 import threading
 import time
 from pathlib import Path
+
+from cases import Cases
 
 ACCOUNTS = Path(__file__).resolve().parent / "accounts.conf"
 
@@ -67,7 +68,7 @@ class Proxy:
         self.is_cut = False
 
 
-class Soak:
+class Soak(Cases):
     def __init__(self, args):
         self.args, self.chance = args, random.Random(args.seed)
         self.folder = Path(args.folder)
@@ -75,7 +76,7 @@ class Soak:
         self.folder.mkdir(parents=True)
         self.port, self.server, self.agents, self.orders = args.port, None, {}, {}
         self.proxy = Proxy(args.port + 1, args.port)
-        self.log = []
+        self.log, self.others = [], []
 
     def fleet(self, *words, ok=(0,), tries=1, role="operator"):
         """Runs `motet-fleet fleet`; its output."""
@@ -230,110 +231,8 @@ class Soak:
         print("%d orders of %d robots in %.0f s, %d journal lines: none lost, none doubled; %d journals from the server are whole; "
               "%d runs were continued; faults: %s" % (len(self.orders), self.args.robots, self.took, lines, len(sample), resumed, self.log))
 
-    def swaps(self):
-        """Times from the offer of a policy to the news that it has taken over, in ms."""
-        (self.folder / "long.motet").write_text("policy long for hsr { go(kitchen_table) go(user) go(counter) go(user) done }")
-        key = str(self.folder / "anna.key")
-        self.fleet("send", "r0", str(self.folder / "long.motet"), "--key", key, "--id", "long")
-        while "long:" not in self.fleet("status"):
-            time.sleep(0.2)
-        time.sleep(0.5)
-        times, refused = [], []
-        for number in range(self.args.swaps):
-            place = ("user", "counter", "kitchen_table")[number % 3]
-            (self.folder / "swap.motet").write_text('policy s%d for hsr { go(%s) say("Here I am.") done }' % (number, place))
-            answer = json.loads(self.fleet("swap", "r0", str(self.folder / "swap.motet"), "--key", key, ok=(0, 1)))
-            if "policy" in answer:
-                times.append(answer["ms"])
-            else:
-                # The state has changed since the check: the policy before goes on.
-                refused.append(answer["problem"])
-        self.fleet("stop", "r0", ok=(0, 1))
-        times.sort()
-        print("swaps: median %.1f ms, p99 %.1f ms, greatest %.1f ms of %d; %d refused %s"
-              % (statistics.median(times), times[int(0.99 * (len(times) - 1))], times[-1], len(times), len(refused), refused[:2]))
-
-    def kill_run(self, order):
-        """Kills the process of the run of an order."""
-        for process in self.runs():
-            if order.encode() in Path("/proc/%d/cmdline" % process).read_bytes():
-                os.kill(process, signal.SIGKILL)
-
-    def send_policy(self, robot, order, steps):
-        path = self.folder / (order + ".motet")
-        path.write_text("policy own for hsr { %s done }" % steps)
-        self.fleet("send", robot, str(path), "--key", str(self.folder / "anna.key"), "--id", order)
-
-    def result(self, robot, order):
-        path = self.folder / robot / "orders" / order / "result.json"
-        limit = time.monotonic() + self.args.patience
-        while not path.exists() and time.monotonic() < limit:
-            time.sleep(0.1)
-        return json.loads(path.read_text())
-
-    def question(self, robot):
-        """The open question of a robot, as `ask` shows it."""
-        limit = time.monotonic() + self.args.patience
-        while time.monotonic() < limit:
-            shown = self.fleet("ask", robot, ok=(0, 2))
-            if "question " in shown:
-                return shown.split("question ")[-1].strip()
-            time.sleep(0.2)
-        raise AssertionError("%s asks nothing" % robot)
-
-    def questions(self):
-        """An answer is for the question that was read, and somebody answers also after the run was killed."""
-        key = ["--key", str(self.folder / "anna.key")]
-        self.send_policy("r1", "asks", 'let one = ask("May I go?") go(user) go(counter) let two = ask("May I stop?") say(two)')
-        first = self.question("r1")
-        wrong = self.fleet("ask", "r1", "yes", "--question", "other/1:3", *key, ok=(1,))
-        assert "does not run" in wrong, wrong
-        self.fleet("ask", "r1", "yes", "--question", first, *key)
-        while "go(" not in self.fleet("status"):
-            time.sleep(0.1)
-        self.kill_run("asks")
-        second = self.question("r1")
-        assert second != first, second
-        late = self.fleet("ask", "r1", "no", "--question", first, *key, ok=(1,))
-        assert "waits no longer" in late, late
-        self.fleet("ask", "r1", "yes", "--question", second, *key)
-        assert self.result("r1", "asks")["outcome"] == "done"
-
-    def stops(self):
-        """A stop holds although the process of the run has just been killed, and a policy takes over no other order."""
-        self.send_policy("r1", "stops", "go(user) go(counter) go(user) go(counter)")
-        while "stops: go(" not in self.fleet("status"):
-            time.sleep(0.1)
-        key = ["--key", str(self.folder / "anna.key")]
-        other = self.fleet("swap", "r1", str(self.folder / "swap.motet"), "--order", "asks", *key, ok=(1,))
-        assert "the order `asks` does not run" in other, other
-        self.kill_run("stops")
-        self.fleet("stop", "r1")
-        result = self.result("r1", "stops")
-        assert (result["state"], result["outcome"]) == ("ended", "interrupted"), result
-
-    def permissions(self):
-        """A robot may not give orders, and an order with a wrong key or for another robot does not run."""
-        policy, key = self.folder / "policy.motet", str(self.folder / "anna.key")
-        stranger = self.folder / "eve.key"
-        self.fleet("key", str(stranger))
-        answer = self.fleet("send", "r1", str(policy), "--key", str(stranger), "--id", "strange", "--wait", ok=(1,))
-        assert "their key is not trusted" in answer, answer
-        try:
-            self.fleet("send", "r1", str(policy), "--key", key, "--id", "by-robot", role="r2")
-        except (AssertionError, subprocess.TimeoutExpired):
-            pass
-        else:
-            raise AssertionError("a robot gave an order")
-        refused = [line for line in (self.folder / "server.log").read_text().splitlines() if "Violation" in line]
-        # What the robot tried above, and nothing else.
-        assert refused and all("motet.orders" in line or "_INBOX_operator" in line for line in refused), refused[:3]
-        for name in ("server.log", *("%s.log" % robot for robot in self.agents)):
-            text = (self.folder / name).read_text()
-            assert "-password" not in text and (self.folder / "anna.key").read_text().strip() not in text, name
-
     def close(self):
-        for process in [*self.agents.values(), self.server]:
+        for process in [*self.others, *self.agents.values(), self.server]:
             if process:
                 process.kill()
         for process in self.runs():
@@ -359,15 +258,13 @@ def main():
     parser.add_argument("--speed", type=float, default=10.0)
     parser.add_argument("--patience", type=float, default=60.0)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--page", help="script that looks at the page of the fleet in a browser")
     parser.add_argument("--all", action="store_true", help="compare every journal with that of the server")
     soak = Soak(parser.parse_args())
     try:
         soak.play()
         soak.check()
-        soak.swaps()
-        soak.questions()
-        soak.stops()
-        soak.permissions()
+        soak.cases()
     finally:
         soak.close()
 
