@@ -6,29 +6,22 @@
 use std::collections::BTreeSet;
 
 use indexmap::IndexMap;
-use motet_robots::scene::{Entity, EntityShape, Outline, PlacedOutline, Placement, Scene};
+use motet_robots::scene::{
+    Entity, EntityShape, MOST_LABEL, Outline, PlacedOutline, Placement, SURE, Scene, clean_label,
+    numbered_id, recognise,
+};
 use motet_runtime::{Detection, Time, ToldThing};
 use motet_stdlib::lang::{entities, kinds};
-use smol_str::{SmolStr, format_smolstr};
+use smol_str::SmolStr;
 
-/// Minimum confidence of a detection.
-const SURE: f64 = 0.5;
 /// Standard deviation of a position in m, where neither the detector nor the scene gives one.
 const ERROR_M: f64 = 0.01;
 /// Number of standard deviations beyond which a thing has moved.
 const SIGMAS: f64 = 3.0;
-/// Greatest distance in m at which a detection without an id may be a thing with its label.
-const ABOUT_M: f64 = 0.3;
 /// Greatest distance in m between the bottom of a thing and what it stands on.
 const CONTACT_M: f64 = 0.05;
 /// The most things that the scene lacks.
 const MOST_NEW: usize = 32;
-/// The most characters of a label, and of an id that a driver gives.
-const MOST_NAME: usize = 40;
-/// Category of every thing that the scene lacks: `the blue thing` is one of them.
-const THING: &str = "thing";
-/// Labels of people.
-const PEOPLE: [&str; 6] = ["person", "human", "man", "woman", "child", "face"];
 
 /// Things that were seen since the scene was recorded.
 #[derive(Clone, Debug, Default)]
@@ -52,7 +45,8 @@ struct SeenThing {
 impl Sightings {
     /// Takes detections in. Returns the things that were seen for the first time or have moved since, with
     /// their support by where they are. A detection without an id counts for the nearest thing with its
-    /// label within 30 cm, else for the only object of its class. What the hand holds does not count.
+    /// label within 30 cm, else for the only object with that class or name. What the hand holds does not
+    /// count.
     /// O(detections · entities).
     ///
     /// ```
@@ -78,7 +72,7 @@ impl Sightings {
         let mut news: Vec<Entity> = Vec::new();
         let mut taken = BTreeSet::new();
         for one in seen.iter().filter(|one| one.confidence >= SURE) {
-            let label = clean(&one.class);
+            let label = clean_label(&one.class);
             let id = self.recognised(scene, one, &label, &taken);
             if let Some(id) = &id {
                 self.in_view.insert(id.clone());
@@ -167,20 +161,11 @@ impl Sightings {
         if one.entity.as_ref().is_some_and(|id| is_usable(id)) || label.is_empty() {
             return None;
         }
-        let new = self.things.values().filter(|seen| seen.is_new).map(|seen| &seen.entity);
-        let is_free = |entity: &&Entity| is_loose(entity) && !taken.contains(&entity.id);
-        let told = || scene.entities.values().filter_map(|entity| known(&entity.id)).filter(is_free);
-        let alike = told()
-            .chain(new.filter(is_free))
-            .filter(|entity| entity.descriptions().any(|name| name == label));
-        let gap = |entity: &Entity| Some(distance(entity.pose?.xyz, one.pose?.xyz));
-        let near = alike.filter_map(|entity| Some((gap(entity)?, entity)).filter(|(gap, _)| *gap <= ABOUT_M));
-        if let Some((_, entity)) = near.min_by(|one, other| one.0.total_cmp(&other.0)) {
-            return Some(entity.id.clone());
-        }
-        let mut of_class = told().filter(|entity| entity.kind == kinds::OBJECT && entity.class == label);
-        let only = of_class.next().filter(|_| of_class.next().is_none())?;
-        Some(only.id.clone())
+        let is_free = |entity: &&Entity| !taken.contains(&entity.id);
+        let told = scene.entities.values().filter_map(|entity| known(&entity.id)).filter(is_free);
+        let new = self.things.values().filter(|seen| seen.is_new).map(|seen| &seen.entity).filter(is_free);
+        let found = recognise(told, new, label, one.pose.map(|pose| pose.xyz))?;
+        Some(found.id.clone())
     }
 
     /// Takes in the position of a known thing. `Some` if it has moved.
@@ -190,7 +175,7 @@ impl Sightings {
             Some(seen) => (seen.entity.clone(), seen.error_m),
             None => (scene.entities.get(id)?.clone(), ERROR_M),
         };
-        if !is_loose(&entity) {
+        if !entity.is_loose() {
             return None;
         }
         let mut xyz = pose.xyz;
@@ -225,33 +210,19 @@ impl Sightings {
     fn discover(&mut self, scene: &Scene, one: &Detection, label: SmolStr) -> Option<Entity> {
         let named = one.entity.as_ref().filter(|id| is_usable(id));
         let label = match named {
-            Some(id) if label.is_empty() => clean(id),
+            Some(id) if label.is_empty() => clean_label(id),
             _ => label,
         };
         if label.is_empty() {
             return None;
         }
-        let kind = if PEOPLE.contains(&label.as_str()) { kinds::PERSON } else { kinds::OBJECT };
-        let is_free = |id: &SmolStr| !scene.entities.contains_key(id) && !self.things.contains_key(id);
+        let is_free = |id: &str| !scene.entities.contains_key(id) && !self.things.contains_key(id);
         let id = match named {
             Some(id) => id.clone(),
-            None => {
-                let stem = label.replace([' ', '-', '\''], "_");
-                (1..).map(|number| format_smolstr!("{stem}_{number}")).find(is_free)?
-            }
+            None => numbered_id(&label, is_free),
         };
         let pose = one.pose.map(|pose| Placement { xyz: pose.xyz, rpy: [0.0, 0.0, pose.yaw()] });
-        let is_solid = |sides: &[f64; 3]| sides.iter().all(|side| (0.001..=5.0).contains(side));
-        let entity = Entity {
-            kind: kind.into(),
-            class: label.clone(),
-            names: vec![label.clone()],
-            categories: vec![SmolStr::new_static(THING)],
-            shape: one.extent.filter(is_solid).map(EntityShape::Box),
-            pose,
-            fixed: false,
-            ..Entity::place(id.clone(), Placement::default())
-        };
+        let entity = Entity::detected(id.clone(), &label, pose, one.extent);
         let entity = self.supported(scene, entity);
         let new = self.things.iter().filter(|(_, seen)| seen.is_new);
         if new.clone().count() >= MOST_NEW {
@@ -302,11 +273,6 @@ pub fn lies_on_floor(entity: &Entity) -> bool {
     entity.pose.is_some_and(|pose| pose.xyz[2] - half_height(entity) <= CONTACT_M)
 }
 
-/// True for what can stand elsewhere the next time.
-fn is_loose(entity: &Entity) -> bool {
-    !entity.fixed && matches!(entity.kind.as_str(), kinds::OBJECT | kinds::PERSON)
-}
-
 fn error_of(one: &Detection) -> f64 {
     one.error_m.unwrap_or(ERROR_M).clamp(0.001, 1.0)
 }
@@ -325,17 +291,9 @@ fn distance(one: [f64; 3], other: [f64; 3]) -> f64 {
     one.iter().zip(other).map(|(one, other)| (one - other).powi(2)).sum::<f64>().sqrt()
 }
 
-/// A label in lower case with letters, digits and single spaces only, so that no label of a detector writes
-/// a line or a tag of a prompt.
-fn clean(label: &str) -> SmolStr {
-    let words = label.split(|letter: char| !letter.is_alphanumeric()).filter(|word| !word.is_empty());
-    let text = words.map(str::to_lowercase).collect::<Vec<_>>().join(" ");
-    text.chars().take(MOST_NAME).collect::<String>().trim_end().into()
-}
-
 /// True for an id of a driver that a policy can write and that means nothing else.
 fn is_usable(id: &str) -> bool {
     let is_name = id.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '_')
         && id.starts_with(|letter: char| letter.is_ascii_alphabetic());
-    is_name && id.len() <= MOST_NAME && !entities::ALL.contains(&id) && id != "any"
+    is_name && id.len() <= MOST_LABEL && !entities::ALL.contains(&id) && id != "any"
 }
