@@ -7,7 +7,7 @@ use crate::observe::Found;
 use crate::plan::Card;
 use crate::robot::{Heard, Robot};
 use crate::task::{Finish, Surroundings, Task};
-use crate::world::{Place, World};
+use crate::world::World;
 use crossbeam_channel::{Receiver, select, tick};
 use motet_graph::Value as Argument;
 use motet_host::remote::protocol::{Detections, REFUSED};
@@ -16,7 +16,7 @@ use motet_host::remote::protocol::{
     MovedParams, ObservedParams, QueryResult, RefusedData, StartParams, StatusResult, ToldParams, VERSION,
     Welcome,
 };
-use motet_runtime::{Answer, Capabilities, FailureReport, GoalId, Pattern, PrimitiveSet, Query, ToldSupport};
+use motet_runtime::{Answer, Capabilities, FailureReport, GoalId, Pattern, PrimitiveSet, Query};
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -160,7 +160,12 @@ impl Driver {
 
     fn take(&mut self, message: &crate::dds::Received) {
         let entities = &self.world.scene.entities;
-        let heard = self.robot.hear(message, &|id| entities.contains_key(id));
+        let mut heard = self.robot.hear(message, &|id| entities.contains_key(id));
+        for news in &mut heard {
+            if let Heard::Detected(things) = news {
+                self.world.recognise(things);
+            }
+        }
         self.pass(&heard);
     }
 
@@ -170,6 +175,7 @@ impl Driver {
             if let Heard::Detected(things) = news {
                 for thing in things {
                     if let Some(id) = &thing.id {
+                        self.world.note(thing);
                         let pose = thing
                             .pose
                             .map(|pose| crate::tf::Transform { xyz: pose.xyz, quaternion: pose.quaternion });
@@ -191,6 +197,10 @@ impl Driver {
     /// Lets all goals go on, and reports what has changed.
     fn advance(&mut self) -> Result<(), String> {
         let mut reports = Vec::new();
+        let detections = self.world.take_news();
+        if !detections.is_empty() {
+            reports.push(DriverReport::Detected(Detections { detections }));
+        }
         self.advance_former();
         // While the whole robot stops, only what stops goes on.
         let is_free = self.former.is_empty() && self.whole_stop.is_none();
@@ -374,13 +384,7 @@ impl Driver {
             },
             DriverCall::Detections(_) => value(&Detections { detections: self.detections.clone() }),
             DriverCall::Told(ToldParams { thing }) => {
-                let place = match thing.support {
-                    Some(ToldSupport::On(at)) => Place::On(at.to_string()),
-                    Some(ToldSupport::In(at)) => Place::In(at.to_string()),
-                    Some(ToldSupport::At(at)) => Place::At(at.to_string()),
-                    None => Place::Unknown,
-                };
-                self.world.told(&thing.id, place);
+                self.world.told(&thing);
                 nothing
             }
             DriverCall::Status(asked) => {

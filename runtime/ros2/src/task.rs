@@ -21,7 +21,7 @@ use crossbeam_channel::{Receiver, TryRecvError};
 use motet_graph::{Value as Argument, Witness};
 use motet_runtime::{Command, FailureReport, Outcome};
 use serde_json::Value;
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -133,7 +133,7 @@ pub(crate) struct Task {
     /// Parts of the robot that the task has used.
     parts: Parts,
     result: Option<Argument>,
-    detected: Vec<String>,
+    detected: BTreeSet<String>,
     /// Move that runs, for a hold.
     current: Option<Move>,
     /// Number of paths of the step that were looked for because the robot was elsewhere.
@@ -163,7 +163,7 @@ impl Task {
             width: None,
             parts: Parts::default(),
             result: None,
-            detected: Vec::new(),
+            detected: BTreeSet::new(),
             current: None,
             detours: 0,
             held: false,
@@ -295,7 +295,7 @@ impl Task {
             }
             Heard::Detected(things) => {
                 if matches!(self.phase, Phase::Detecting { .. }) {
-                    self.detected.extend(things.iter().filter_map(|thing| thing.id.clone()));
+                    self.hear_detections(around, things);
                 }
             }
             Heard::Goal(_, News::Feedback(..)) | Heard::Kept => {}

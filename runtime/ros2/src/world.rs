@@ -1,7 +1,10 @@
 //! What the driver believes of the room: the scene, what its own goals changed, and what was detected.
 
+mod sighting;
+
 use crate::tf::Transform;
 use motet_graph::Value;
+use motet_host::remote::protocol::DetectedThing;
 use motet_robots::scene::{Placement, Scene};
 use motet_runtime::{Pattern, Query};
 use std::collections::{BTreeMap, BTreeSet};
@@ -31,6 +34,12 @@ pub(crate) struct World {
     at: BTreeSet<String>,
     visited: BTreeSet<String>,
     seen: BTreeMap<String, Instant>,
+    /// Things that the scene lacks.
+    found: BTreeSet<String>,
+    /// Positions in m where the host was told that things are.
+    reported: BTreeMap<String, [f64; 3]>,
+    /// Detections that the host does not know of.
+    news: Vec<DetectedThing>,
     posture: Option<&'static str>,
 }
 
@@ -53,8 +62,18 @@ impl World {
             .filter_map(|entity| Some((entity.id.to_string(), entity.open?)))
             .collect();
         let at = scene.robot.at.iter().map(ToString::to_string).collect();
-        let (visited, seen) = (BTreeSet::new(), BTreeMap::new());
-        Self { scene, places, open, at, visited, seen, posture: Some("arm_home") }
+        Self {
+            scene,
+            places,
+            open,
+            at,
+            visited: BTreeSet::new(),
+            seen: BTreeMap::new(),
+            found: BTreeSet::new(),
+            reported: BTreeMap::new(),
+            news: Vec::new(),
+            posture: Some("arm_home"),
+        }
     }
 
     /// The thing in the hand.
@@ -111,11 +130,6 @@ impl World {
         self.places.extend(thing.map(|thing| (thing, place)));
     }
 
-    /// Takes in that a thing was told to be somewhere.
-    pub(crate) fn told(&mut self, thing: &str, place: Place) {
-        self.put(Some(thing.to_owned()), place);
-    }
-
     /// Takes in a detection of a known thing. A thing that is not where it was believed has no place until
     /// somebody says.
     pub(crate) fn saw(&mut self, thing: &str, pose: Option<Transform>) {
@@ -131,16 +145,10 @@ impl World {
         }
     }
 
-    /// Things that a description fits: an id, a name, a class, or words of a name.
+    /// Things that a description fits, as the host reads it.
     #[must_use]
     pub(crate) fn matches(&self, what: &str) -> Vec<String> {
-        let wanted = what.trim().to_lowercase();
-        let fits = |text: &str| text.to_lowercase().replace('_', " ") == wanted;
-        let entities = self.scene.entities.values();
-        let found = entities.filter(|entity| {
-            fits(&entity.id) || fits(&entity.class) || entity.names.iter().any(|name| fits(name))
-        });
-        found.map(|entity| entity.id.to_string()).collect()
+        self.scene.matches(what).into_iter().map(|entity| entity.id.to_string()).collect()
     }
 
     /// Pose of an entity.

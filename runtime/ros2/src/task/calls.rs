@@ -5,11 +5,25 @@ use crate::bind::{Call, CallKind, Opening};
 use crate::template::{fill, of_argument, of_pose};
 use crate::tf::Transform;
 use motet_graph::Value as Argument;
+use motet_host::remote::protocol::DetectedThing;
 use motet_runtime::FailureReport;
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 
 impl Task {
+    /// Takes in detections. What the step looks for and the scene lacks becomes a thing of the room, unless a
+    /// known thing is seen that is described so: a detector may see one thing twice.
+    pub(super) fn hear_detections(&mut self, around: &mut Surroundings<'_>, things: &[DetectedThing]) {
+        let known: Vec<String> = things.iter().filter_map(|thing| thing.id.clone()).collect();
+        let what = self.words().into_iter().next().unwrap_or_default();
+        let is_seen = around.world.matches(&what).iter().any(|id| known.contains(id));
+        if !is_seen {
+            let unknown = things.iter().filter(|thing| thing.id.is_none());
+            self.detected.extend(unknown.filter_map(|thing| around.world.discover(&what, thing)));
+        }
+        self.detected.extend(known);
+    }
+
     /// Ends the step if what was looked for is detected. True if it is over.
     pub(super) fn find_detected(&mut self, around: &mut Surroundings<'_>, is_late: bool) -> bool {
         let what = self.words().into_iter().next().unwrap_or_default();
