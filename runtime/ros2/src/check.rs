@@ -188,7 +188,9 @@ fn check_joints(binding: &Binding, joints: &[String], report: &mut Report) {
         binding.controllers.iter().find(|one| !one.base.is_empty()),
         &binding.navigation,
     ) {
-        (None, ..) => report.none("base", "no odometry: the robot does not drive"),
+        (None, ..) => {
+            report.none("base", "no odometry: the robot does not drive, and a stop asks its joints only")
+        }
         (_, Some(controller), _) => {
             report.good("base", &format!("{}, follows certified paths", controller.action))
         }

@@ -4,6 +4,7 @@ mod action;
 mod bind;
 mod cdr;
 mod check;
+mod clock;
 mod dds;
 mod driver;
 mod group;

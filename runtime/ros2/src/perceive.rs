@@ -253,6 +253,7 @@ mod tests {
             &decode(&layouts(), "tf2_msgs/TFMessage", &bytes("tf2_msgs/TFMessage", &value)).unwrap(),
             false,
             Instant::now(),
+            &crate::clock::Clock::default(),
         );
         frames
     }

@@ -131,7 +131,11 @@ impl Robot {
         }
         if let Some(topic) = &binding.base.localization {
             let type_name = "geometry_msgs/PoseWithCovarianceStamped";
-            self.listen(topic, type_name, Quality::Reliable, Channel::Localization)?;
+            // AMCL sends a pose only when it has a new one, and keeps the last one for who comes later. A
+            // reader that asks for it hears no other writers; the second one hears all.
+            for quality in [Quality::Latched, Quality::Sensor] {
+                self.listen(topic, type_name, quality, Channel::Localization)?;
+            }
         }
         self.listen("/tf", "tf2_msgs/TFMessage", Quality::Reliable, Channel::Frames(false))?;
         self.listen("/tf_static", "tf2_msgs/TFMessage", Quality::Latched, Channel::Frames(true))?;
@@ -216,7 +220,9 @@ impl Robot {
         self.known(type_name, "message")?;
         let (source, name) = (self.next(), dds_topic("rt", topic, ""));
         self.dds.subscribe(&name, &dds_type(type_name, "msg", ""), quality, source)?;
-        self.heard.push(name);
+        if !self.heard.contains(&name) {
+            self.heard.push(name);
+        }
         self.channels.push(channel);
         Ok(())
     }
@@ -367,7 +373,7 @@ impl Robot {
             }
             Channel::Frames(is_static) => {
                 let message = read("tf2_msgs/TFMessage")?;
-                self.body.frames.hear(&message, *is_static, received.at);
+                self.body.hear_frames(&message, *is_static, received.at);
             }
             Channel::Kept(topic) => {
                 let type_name = self.type_of(topic);

@@ -2,6 +2,7 @@
 
 use crate::bind::{Binding, Standstill};
 use crate::cdr::Message;
+use crate::clock::Clock;
 use crate::tf::{Frames, Planar};
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::{Duration, Instant};
@@ -30,6 +31,7 @@ pub(crate) struct Body {
     /// Greatest standard deviation of the localisation in the plane in m; infinite if it says none.
     pub(crate) sigma: Option<f64>,
     pub(crate) frames: Frames,
+    clock: Clock,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -59,8 +61,14 @@ impl Parts {
 }
 
 impl Body {
-    /// Takes in a `sensor_msgs/JointState`.
+    /// Takes in a `tf2_msgs/TFMessage` that came at `now`.
+    pub(crate) fn hear_frames(&mut self, message: &Message, is_static: bool, now: Instant) {
+        self.frames.hear(message, is_static, now, &self.clock);
+    }
+
+    /// Takes in a `sensor_msgs/JointState` that came at `now`. It is as old as its stamp says.
     pub(crate) fn hear_joints(&mut self, message: &Message, limits: &Standstill, now: Instant) {
+        let now = self.clock.hear(message.secs("header.stamp"), now);
         let (positions, speeds) = (message.numbers("position"), message.numbers("velocity"));
         for (at, name) in message.list("name").iter().enumerate() {
             let (Message::Text(name), Some(position)) = (name, positions.get(at)) else { continue };
@@ -70,7 +78,8 @@ impl Body {
             }
             // Without a speed it follows from the positions.
             let speed = speeds.get(at).copied().filter(|speed| speed.is_finite()).unwrap_or_else(|| {
-                let since = before.map_or(0.0, |before| now.duration_since(before.at).as_secs_f64());
+                let since =
+                    before.map_or(0.0, |before| now.saturating_duration_since(before.at).as_secs_f64());
                 before.filter(|_| since > 1e-4).map_or(0.0, |before| (position - before.position) / since)
             });
             let still =
@@ -79,8 +88,9 @@ impl Body {
         }
     }
 
-    /// Takes in a `nav_msgs/Odometry`.
+    /// Takes in a `nav_msgs/Odometry` that came at `now`. It is as old as its stamp says.
     pub(crate) fn hear_odometry(&mut self, message: &Message, limits: &Standstill, now: Instant) {
+        let now = self.clock.hear(message.secs("header.stamp"), now);
         let speed = message.number("twist.twist.linear.x").hypot(message.number("twist.twist.linear.y"));
         let turn = message.number("twist.twist.angular.z").abs();
         let before = self.base.map(|before| (before.still, before.at));
@@ -174,7 +184,7 @@ fn still_since(is_slow: bool, before: Option<(Option<Instant>, Instant)>, now: I
     if !is_slow {
         return None;
     }
-    let before = before.filter(|(_, at)| now.duration_since(*at) < FRESH);
+    let before = before.filter(|(_, at)| now.saturating_duration_since(*at) < FRESH);
     before.and_then(|(still, _)| still).or(Some(now))
 }
 
@@ -222,6 +232,34 @@ mod tests {
             .insert("old".to_owned(), JointState { position: 0.0, speed: 1.0, at: ago(900), still: None });
         assert!(body.is_still(&all, &binding), "nobody reports the joint any more");
         assert_eq!(body.positions().len(), 1);
+    }
+
+    #[test]
+    fn a_state_that_comes_late_is_old_however_steadily_it_comes() {
+        let layouts = Layouts::of(Distribution::Jazzy, None).unwrap();
+        let (mut body, now) = (Body::default(), Instant::now());
+        let message = |name: &str, value: &serde_json::Value| {
+            decode(&layouts, name, &encode(&layouts, name, value).unwrap()).unwrap()
+        };
+        let joints = |sec: i32| {
+            let value = json!({"header": {"stamp": {"sec": sec}}, "name": ["a"], "position": [1.0],
+                "velocity": [0.0]});
+            message("sensor_msgs/JointState", &value)
+        };
+        let transform = |sec: i32| {
+            let value = json!({"transforms": [{"header": {"frame_id": "map", "stamp": {"sec": sec}},
+                "child_frame_id": "base_footprint", "transform": {"rotation": {"w": 1.0}}}]});
+            message("tf2_msgs/TFMessage", &value)
+        };
+        let binding = binding();
+        body.hear_joints(&joints(2_000_000_000), &binding.standstill, now);
+        body.hear_frames(&transform(1_999_999_998), false, now);
+        assert!(body.base(&binding).unwrap_err().contains("`base_footprint` is 2.0"));
+        body.hear_frames(&transform(2_000_000_001), false, now);
+        assert!(body.base(&binding).is_ok(), "a localisation writes its stamps ahead");
+        let later = now.checked_add(Duration::from_secs(2)).unwrap();
+        body.hear_joints(&joints(2_000_000_000), &binding.standstill, later);
+        assert_eq!(body.joints["a"].at, now, "as old as it was before");
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Frames of the robot over time.
 
 use crate::cdr::Message;
+use crate::clock::Clock;
 use std::collections::{HashMap, VecDeque};
 use std::time::Instant;
 
@@ -129,7 +130,7 @@ fn rotate(quaternion: [f64; 4], [x, y, z]: [f64; 3]) -> [f64; 3] {
 struct Frame {
     parent: String,
     is_static: bool,
-    /// Arrival of the last transform.
+    /// Time of the last transform, by its stamp: at the latest its arrival.
     heard: Instant,
     /// Transforms with their times in s, the oldest first.
     history: VecDeque<(f64, Transform)>,
@@ -143,7 +144,7 @@ pub(crate) struct Frames {
 
 impl Frames {
     /// Takes in a `tf2_msgs/TFMessage` that came at `now`. Transforms that are none are left out.
-    pub(crate) fn hear(&mut self, message: &Message, is_static: bool, now: Instant) {
+    pub(crate) fn hear(&mut self, message: &Message, is_static: bool, now: Instant, clock: &Clock) {
         for told in message.list("transforms") {
             let child = told.text("child_frame_id").trim_start_matches('/').to_owned();
             let parent = told.text("header.frame_id").trim_start_matches('/').to_owned();
@@ -155,6 +156,7 @@ impl Frames {
                 continue;
             }
             let at = told.secs("header.stamp");
+            let now = clock.written(at, now);
             let frame = self.frames.entry(child).or_insert_with(|| Frame {
                 parent: parent.clone(),
                 is_static,
@@ -232,7 +234,7 @@ impl Frame {
         let Some(time) = time else {
             let silent = self.heard.elapsed().as_secs_f64();
             if silent > age {
-                return Err(format!("the last transform of `{name}` came {silent:.2} s ago"));
+                return Err(format!("the last transform of `{name}` is {silent:.2} s old"));
             }
             return Ok(newest);
         };
@@ -272,7 +274,12 @@ mod tests {
             "child_frame_id": child, "transform": {"translation": {"x": x},
             "rotation": {"z": (yaw / 2.0).sin(), "w": (yaw / 2.0).cos()}}}]});
         let bytes = encode(&layouts, "tf2_msgs/TFMessage", &value).unwrap();
-        frames.hear(&decode(&layouts, "tf2_msgs/TFMessage", &bytes).unwrap(), is_static, Instant::now());
+        frames.hear(
+            &decode(&layouts, "tf2_msgs/TFMessage", &bytes).unwrap(),
+            is_static,
+            Instant::now(),
+            &Clock::default(),
+        );
     }
 
     #[test]
@@ -304,7 +311,7 @@ mod tests {
         assert_eq!(wrong("map", None), "no transform leads from `map` to `base`");
         frames.frames.get_mut("base").unwrap().heard -= std::time::Duration::from_secs(3);
         let silent = frames.look_up("odom", "base", None, 0.5).unwrap_err();
-        assert_eq!(silent, "the last transform of `base` came 3.00 s ago");
+        assert_eq!(silent, "the last transform of `base` is 3.00 s old");
         let mut circle = Frames::default();
         told(&mut circle, "a", "b", 1, 0.0, 0.0, false);
         told(&mut circle, "b", "a", 1, 0.0, 0.0, false);

@@ -23,7 +23,13 @@ impl Task {
     /// Waits until no server carries out a goal and everything stands still, and then ends, or goes on after
     /// a hold.
     pub(super) fn advance_stop(&mut self, around: &mut Surroundings<'_>) -> Option<Finish> {
-        let is_still = around.robot.body.is_still(&self.parts, &around.robot.binding);
+        // Of a safe stop people believe that the robot stands, whatever this goal moved of it.
+        let is_still = match self.stopping.as_ref()?.ending {
+            Ending::SafeStop => around.robot.is_still(),
+            Ending::Hold | Ending::Cancel | Ending::Fail(_) => {
+                around.robot.body.is_still(&self.parts, &around.robot.binding)
+            }
+        };
         let is_over = self.is_over_everywhere(around);
         let stopping = self.stopping.as_mut()?;
         if is_still && is_over {
