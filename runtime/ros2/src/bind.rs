@@ -266,6 +266,14 @@ pub(crate) struct CameraTopics {
     pub(crate) info: String,
 }
 
+impl CameraTopics {
+    /// Type of the pictures: those of `image_transport` are compressed if the name of the topic says so.
+    #[must_use]
+    pub(crate) fn image_type(&self) -> &'static str {
+        if self.image.ends_with("/compressed") { "sensor_msgs/CompressedImage" } else { "sensor_msgs/Image" }
+    }
+}
+
 /// Topic of `vision_msgs/Detection3DArray`.
 #[derive(Clone, PartialEq, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]

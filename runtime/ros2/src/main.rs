@@ -13,6 +13,7 @@ mod layout;
 mod lines;
 mod observe;
 mod perceive;
+mod picture;
 mod plan;
 mod robot;
 mod service;

@@ -3,6 +3,7 @@
 use crate::bind::{Binding, CameraTopics};
 use crate::cdr::{Message, decode};
 use crate::layout::Layouts;
+use crate::picture::{Picture, millimetres, size};
 use crate::tf::{Frames, Transform};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -17,8 +18,6 @@ const KEPT: usize = 6;
 const FRESH: Duration = Duration::from_secs(2);
 /// Greatest difference of the times of a picture and its depth in s.
 const APART: f64 = 0.1;
-/// Greatest width and height of a picture.
-const MAX_SIDE: u32 = 4_096;
 /// Greatest number of detections of a message.
 const MAX_DETECTIONS: usize = 1_000;
 
@@ -72,16 +71,17 @@ impl CameraFeed {
         let (_, bytes) =
             latest.ok_or_else(|| format!("no picture of `{name}` within 2 s on {}", camera.image))?;
         let info = self.info.as_ref().ok_or_else(|| format!("no message on {}", camera.info))?;
-        let image = decode(layouts, "sensor_msgs/Image", bytes)?;
+        let image = decode(layouts, camera.image_type(), bytes)?;
         let info = decode(layouts, "sensor_msgs/CameraInfo", info)?;
-        let (width, height) = size(&image)?;
+        let picture = Picture::of(&image)?;
+        let (width, height) = (picture.width, picture.height);
         let at = image.secs("header.stamp");
         let frame = image.text("header.frame_id");
         let pose = frames.look_up(&binding.frames.map, frame, Some(at), binding.frames.age_secs)?;
         let k = info.numbers("k");
         let [fx, cx, fy, cy] = [0, 2, 4, 5].map(|at| k.get(at).copied().unwrap_or_default());
         let depth = camera.depth.as_ref().and_then(|_| self.depth(layouts, at, width, height));
-        let png = STANDARD.encode(png(&image, width, height)?);
+        let png = STANDARD.encode(picture.png()?);
         Ok(LookResult {
             image: PngImage { width, height, png },
             depth,
@@ -98,81 +98,6 @@ impl CameraFeed {
         let image = near.min_by(|one, other| apart(one).total_cmp(&apart(other)))?;
         let mm = STANDARD.encode(millimetres(&image, width, height)?);
         Some(DepthMap { width, height, mm })
-    }
-}
-
-fn size(image: &Message) -> Result<(u32, u32), String> {
-    let side = |name| {
-        let Some(Message::Uint(side)) = image.get(name) else { return None };
-        u32::try_from(*side).ok().filter(|side| (1..=MAX_SIDE).contains(side))
-    };
-    let sides = side("width").zip(side("height"));
-    sides.ok_or_else(|| format!("a picture has no sides from 1 to {MAX_SIDE} pixels"))
-}
-
-/// Rows of an image, of `pixel` bytes each pixel.
-fn rows(image: &Message, width: u32, height: u32, pixel: usize) -> Option<Vec<&[u8]>> {
-    let Some(Message::Bytes(data)) = image.get("data") else { return None };
-    let Some(Message::Uint(step)) = image.get("step") else { return None };
-    let (step, row) = (usize::try_from(*step).ok()?, width as usize * pixel);
-    (0..height as usize).map(|at| data.get(at.checked_mul(step)?..)?.get(..row)).collect()
-}
-
-/// PNG file of an image.
-fn png(image: &Message, width: u32, height: u32) -> Result<Vec<u8>, String> {
-    let encoding = image.text("encoding");
-    let (pixel, picks): (usize, &[usize]) = match encoding {
-        "rgb8" => (3, &[0, 1, 2]),
-        "bgr8" => (3, &[2, 1, 0]),
-        "rgba8" => (4, &[0, 1, 2]),
-        "bgra8" => (4, &[2, 1, 0]),
-        "mono8" | "8UC1" => (1, &[0, 0, 0]),
-        _ => {
-            return Err(format!(
-                "pictures of the encoding `{encoding}` are not read: rgb8, bgr8, rgba8, bgra8 and mono8 are"
-            ));
-        }
-    };
-    let rows = rows(image, width, height, pixel).ok_or("a picture has fewer bytes than its size says")?;
-    let pixels = rows.into_iter().flat_map(|row| row.chunks_exact(pixel));
-    let data: Vec<u8> = pixels.flat_map(|bytes| picks.iter().map(|at| bytes[*at])).collect();
-    let mut file = Vec::new();
-    let mut encoder = png::Encoder::new(&mut file, width, height);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_compression(png::Compression::Fast);
-    let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(&data));
-    written.map_err(|error| format!("a picture cannot be written: {error}"))?;
-    Ok(file)
-}
-
-/// Depths in mm, little-endian.
-fn millimetres(image: &Message, width: u32, height: u32) -> Option<Vec<u8>> {
-    let is_big = image.number("is_bigendian") > 0.0;
-    match image.text("encoding") {
-        "16UC1" | "mono16" => {
-            let rows = rows(image, width, height, 2)?;
-            let pairs = rows.into_iter().flat_map(|row| row.chunks_exact(2));
-            Some(
-                pairs.flat_map(|pair| if is_big { [pair[1], pair[0]] } else { [pair[0], pair[1]] }).collect(),
-            )
-        }
-        "32FC1" => {
-            let rows = rows(image, width, height, 4)?;
-            let depth = |bytes: &[u8]| {
-                let bytes: [u8; 4] = bytes.try_into().unwrap_or_default();
-                let metres = if is_big { f32::from_be_bytes(bytes) } else { f32::from_le_bytes(bytes) };
-                let mm = f64::from(metres) * 1000.0;
-                #[allow(
-                    clippy::cast_possible_truncation,
-                    clippy::cast_sign_loss,
-                    reason = "the range is checked"
-                )]
-                let mm = if mm.is_finite() && (0.0..65_535.0).contains(&mm) { mm.round() as u16 } else { 0 };
-                mm.to_le_bytes()
-            };
-            Some(rows.into_iter().flat_map(|row| row.chunks_exact(4)).flat_map(depth).collect())
-        }
-        _ => None,
     }
 }
 

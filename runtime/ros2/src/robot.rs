@@ -161,7 +161,8 @@ impl Robot {
         let binding = self.binding.clone();
         for (at, camera) in binding.cameras.iter().enumerate() {
             let image = "sensor_msgs/Image";
-            self.listen(&camera.image, image, Quality::Sensor, Channel::Camera(at, Feed::Image))?;
+            let source = Channel::Camera(at, Feed::Image);
+            self.listen(&camera.image, camera.image_type(), Quality::Sensor, source)?;
             if let Some(depth) = &camera.depth {
                 self.listen(depth, image, Quality::Sensor, Channel::Camera(at, Feed::Depth))?;
             }
