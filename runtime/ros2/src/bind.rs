@@ -274,11 +274,14 @@ impl CameraTopics {
     }
 }
 
-/// Topic of `vision_msgs/Detection3DArray`.
+/// Topic of `vision_msgs/Detection3DArray`, or of `Detection2DArray` for the pictures of a camera.
 #[derive(Clone, PartialEq, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DetectionTopic {
     pub(crate) topic: String,
+    /// Camera with depth in whose pictures the boxes are.
+    #[serde(default)]
+    pub(crate) camera: Option<String>,
     /// Words for the classes of the detector: `class = "red mug"`.
     #[serde(default)]
     pub(crate) labels: BTreeMap<String, String>,
@@ -336,6 +339,12 @@ impl Binding {
                     return Err(format!("{name}: step {} of {primitive} needs a table [detections]", at + 1));
                 }
             }
+        }
+        let boxed = binding.detections.as_ref().and_then(|topic| topic.camera.as_ref());
+        let has_depth =
+            |name: &String| binding.cameras.iter().any(|one| one.name == *name && one.depth.is_some());
+        if let Some(camera) = boxed.filter(|camera| !has_depth(camera)) {
+            return Err(format!("{name}: [detections] needs a camera `{camera}` with depth"));
         }
         for controller in &binding.controllers {
             let is_base = controller.base.len() == 3 && controller.joints.is_empty();

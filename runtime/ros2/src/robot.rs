@@ -6,7 +6,7 @@ use crate::cdr::{Message, decode, encode};
 use crate::dds::{Dds, Quality, Received, Source, Writer, dds_topic, dds_type};
 use crate::layout::Layouts;
 use crate::observe::{Expression, Found};
-use crate::perceive::{CameraFeed, Feed, detections};
+use crate::perceive::{CameraFeed, Feed, box_detections, detections};
 use crate::service::{Client, Interface, Ticket};
 use crate::state::{Body, Parts};
 use bytes::Bytes;
@@ -33,7 +33,8 @@ enum Channel {
     /// Topic whose last message is kept.
     Kept(String),
     Camera(usize, Feed),
-    Detections,
+    /// Detections in space, or in the pictures of the camera of this number.
+    Detections(Option<usize>),
 }
 
 /// Something that a message told.
@@ -170,7 +171,11 @@ impl Robot {
             self.listen(&camera.info, info, Quality::Sensor, Channel::Camera(at, Feed::Info))?;
         }
         if let Some(topic) = &binding.detections {
-            self.listen(&topic.topic, "vision_msgs/Detection3DArray", Quality::Sensor, Channel::Detections)?;
+            let camera = topic.camera.as_ref();
+            let camera = camera.and_then(|name| binding.cameras.iter().position(|own| own.name == *name));
+            let kind = if camera.is_some() { "Detection2DArray" } else { "Detection3DArray" };
+            let channel = Channel::Detections(camera);
+            self.listen(&topic.topic, &format!("vision_msgs/{kind}"), Quality::Sensor, channel)?;
         }
         for observation in binding.facts.values().chain(binding.measures.values()) {
             self.keep(&observation.topic, &observation.type_name)?;
@@ -384,9 +389,15 @@ impl Robot {
             Channel::Camera(at, feed) => {
                 self.cameras[*at].hear(*feed, received.bytes.clone(), received.at);
             }
-            Channel::Detections => {
-                let message = read("vision_msgs/Detection3DArray")?;
-                let (things, wrong) = detections(&message, &self.binding, &self.body.frames, known);
+            Channel::Detections(camera) => {
+                let (binding, frames) = (&self.binding, &self.body.frames);
+                let (things, wrong) = match camera {
+                    Some(at) => {
+                        let message = read("vision_msgs/Detection2DArray")?;
+                        box_detections(&message, &self.cameras[*at], binding, &self.layouts, frames, known)
+                    }
+                    None => detections(&read("vision_msgs/Detection3DArray")?, binding, frames, known),
+                };
                 if let Some(wrong) = wrong {
                     self.tell(&format!("a detection is left out: {wrong}"));
                 }
