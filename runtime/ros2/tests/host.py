@@ -1,5 +1,7 @@
 """A small host, and the robot and the driver that it talks to."""
 
+import base64
+import io
 import json
 import os
 import queue
@@ -11,6 +13,9 @@ import tempfile
 import threading
 import time
 from pathlib import Path
+
+import numpy as np
+from PIL import Image
 
 HERE = Path(__file__).resolve().parent
 DRIVER = os.environ.get("MOTET_ROS2", "motet-ros2")
@@ -31,12 +36,12 @@ class RobotProcess:
         events = [json.loads(line) for line in self.log if line.endswith("\n")]
         return [event for event in events if name in (None, event["event"])]
 
-    def wait(self, name, secs=20.0):
-        """True if something happens in time."""
+    def wait(self, name, secs=20.0, count=1):
+        """True if something happens so often in time."""
         end = time.monotonic() + secs
-        while not self.events(name) and time.monotonic() < end:
+        while len(self.events(name)) < count and time.monotonic() < end:
             time.sleep(0.02)
-        return bool(self.events(name))
+        return len(self.events(name)) >= count
 
     def close(self):
         self.process.send_signal(signal.SIGTERM)
@@ -196,3 +201,22 @@ class Driver:
     def __exit__(self, *_):
         if self.alive:
             self.close()
+
+
+def drive(driver, end, joints=(), secs=4.0, begin=(0.0, 0.0, 0.0)):
+    """Starts a motion of the base to a place, and then of joints."""
+    path = [{"base": list(begin), "joints": [0.0 for _ in joints], "at": 0.0},
+            {"base": end, "joints": [0.0 for _ in joints], "at": secs, "ramp": 1.0}]
+    if joints:
+        path.append({"base": end, "joints": [value for _, value in joints], "at": secs + 1.0, "ramp": 0.3})
+    witness = {"joints": [name for name, _ in joints], "path": path, "clearance": 0.1}
+    args = {"to": {"entity": "counter"}}
+    return driver.start("go", [{"query": "go_to", "args": [{"entity": "counter"}], "verdict": "proven", "witness": witness}], **args)[0]
+
+
+def pixels(picture):
+    """Rows of pixels of a picture that the driver took, and their depths in m."""
+    image = Image.open(io.BytesIO(base64.b64decode(picture["image"]["png"])))
+    assert image.size == (picture["image"]["width"], picture["image"]["height"])
+    depth = np.frombuffer(base64.b64decode(picture["depth"]["mm"]), dtype="<u2").reshape(image.height, image.width)
+    return np.asarray(image), depth / 1000.0

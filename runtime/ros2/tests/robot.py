@@ -6,6 +6,10 @@ Faults of all its action servers: `reject`, `ignore-cancel` (goes on after a can
 a goal), `mute` (and never tells its state), `late` (answers after 3 s), `twice` (answers everything twice, the second
 time otherwise), `other-goal` (answers calls that nobody made), `early` (says that a trajectory has succeeded in the middle of it).
 MoveGroup finds no plan with `no-plan`, and a navigation ends 0.2 m beside its goal with `beside`.
+
+Faults of its topics: `labels` (detections without ids), `volatile` (the localisation is sent again and again, and not
+kept for who comes later), `late-tf` (transforms come 2 s late, and steadily), `rolls` (the base rolls on for 3 s when the
+arm's goal is canceled).
 """
 
 import argparse
@@ -156,6 +160,10 @@ class Physics:
                 found.append((thing, [float(x) for x in position], [float(x) for x in quaternion], [float(x) for x in high - low]))
         return found
 
+    def name(self, thing):
+        """What a detector calls a thing."""
+        return self.model.entities[thing]["names"][0]
+
     def holds(self):
         """Things in the hand, by the truth of the world."""
         return self.world.held()
@@ -165,10 +173,77 @@ class Physics:
         return {thing: person for thing, (person, _) in self.world.carried_by.items()}
 
 
+class Ramp:
+    """A camera at the base whose pictures have a ramp of bytes, with a depth of 1.25 m in the left half."""
+
+    def __init__(self, is_compressed):
+        self.is_compressed = is_compressed
+
+    def take(self, _body, frame):
+        data = bytes(at % 251 for at in range(3 * 64 * 48))
+        image = {"width": 64, "height": 48, "step": 192, "encoding": "rgb8", "data": data}
+        if self.is_compressed:
+            image = compressed(data, 64, 48)
+        depth = b"".join(([1250, 0][at % 64 >= 32]).to_bytes(2, "little") for at in range(64 * 48))
+        return {"image": image, "info": {"width": 64, "height": 48, "k": [60.0, 0.0, 32.0, 0.0, 60.0, 24.0, 0.0, 0.0, 1.0]},
+                "depth": {"width": 64, "height": 48, "step": 128, "encoding": "16UC1", "data": depth}}, (frame, None, None)
+
+
+def compressed(pixels, width, height, kind="jpeg"):
+    """A `sensor_msgs/CompressedImage` of red, green and blue bytes."""
+    import io
+
+    from PIL import Image
+    file = io.BytesIO()
+    Image.frombytes("RGB", (width, height), pixels).save(file, kind, quality=95, subsampling=0)
+    return {"format": "rgb8; %s compressed bgr8" % kind, "data": file.getvalue()}
+
+
+class Rendered:
+    """The first camera of the world of MuJoCo. Of its pictures, every fourth row and column is sent."""
+
+    EVERY = 4
+
+    def __init__(self, world):
+        from motet_mujoco.camera import Camera
+        self.world, self.camera = world, Camera(world)
+
+    def take(self, body, _frame):
+        import numpy as np
+        from motet_mujoco.camera import quaternion
+        picture = self.last = self.camera.look(self.world.model.cameras[0])
+        colour = np.ascontiguousarray(picture.colour[::self.EVERY, ::self.EVERY])
+        depth = np.ascontiguousarray(picture.depth[::self.EVERY, ::self.EVERY]).astype("<f4")
+        height, width = depth.shape
+        (cx, cy), focal = [part / self.EVERY for part in picture.centre], picture.focal / self.EVERY
+        x, y, yaw = body.base
+        turned = np.array([[math.cos(yaw), math.sin(yaw), 0.0], [-math.sin(yaw), math.cos(yaw), 0.0], [0.0, 0.0, 1.0]])
+        position = turned @ (picture.position - np.array([x, y, 0.0]))
+        return {"image": {"width": width, "height": height, "step": 3 * width, "encoding": "rgb8", "data": colour.tobytes()},
+                "depth": {"width": width, "height": height, "step": 4 * width, "encoding": "32FC1", "data": depth.tobytes()},
+                "info": {"width": width, "height": height, "k": [focal, 0.0, cx, 0.0, focal, cy, 0.0, 0.0, 1.0]},
+                }, ("camera_optical", [float(part) for part in position], quaternion(turned @ picture.rotation))
+
+
+    def boxes(self, body):
+        """Boxes in the last picture around the things in view: name, middle and sides in pixels."""
+        import itertools
+
+        import numpy as np
+        picture, (cx, cy) = self.last, self.last.centre
+        for thing, position, _, sides in body.things():
+            corners = [np.array(position) + np.array(signs) * sides / 2.0 for signs in itertools.product((-1.0, 1.0), repeat=3)]
+            seen = [picture.rotation.T @ (corner - picture.position) for corner in corners]
+            if min(z for _, _, z in seen) > 0.1:
+                pixels = np.array([(x / z * picture.focal + cx, y / z * picture.focal + cy) for x, y, z in seen]) / self.EVERY
+                low, high = pixels.min(axis=0), pixels.max(axis=0)
+                yield body.name(thing), [float(part) for part in (low + high) / 2.0], [float(part) for part in high - low]
+
+
 class Robot:
     """Topics and action servers of a robot that a binding names."""
 
-    def __init__(self, binding, body, faults, domain, log, sigma=0.0, turns=0):
+    def __init__(self, binding, body, faults, domain, log, sigma=0.0, turns=0, seen=(), pictures=None):
         ros = binding.get("ros", {})
         self.types = Types(ros.get("distribution", "jazzy"))
         self.node, self.body, self.faults, self.log = Node(self.types, domain), body, set(faults), log
@@ -181,16 +256,29 @@ class Robot:
         self.tf, self.tf_static = publish("/tf", "tf2_msgs/TFMessage"), publish("/tf_static", "tf2_msgs/TFMessage", LATCHED)
         self.localization = None
         if "localization" in base:
-            self.localization = publish(base["localization"], "geometry_msgs/PoseWithCovarianceStamped")
-        self.sigma = sigma
+            quality = RELIABLE if "volatile" in self.faults else LATCHED
+            self.localization = publish(base["localization"], "geometry_msgs/PoseWithCovarianceStamped", quality)
+        self.sigma, self.is_localized = sigma, False
+        # Things that a detector sees besides: class and position. End of the time in which the base rolls.
+        self.seen, self.rolling = seen, None
         # Axes of the base with how often they have gone round, which only joint states tell.
         axes = [controller["base"] for controller in binding.get("controllers", []) if "base" in controller]
         self.axis, self.turns = (axes[0][2] if axes else None), turns
-        self.detections = publish(binding["detections"]["topic"], "vision_msgs/Detection3DArray") if "detections" in binding else None
+        self.detections = self.boxes = None
+        if "detections" in binding:
+            # In space, or in the pictures of a camera.
+            kind = "vision_msgs/Detection2DArray" if "camera" in binding["detections"] else "vision_msgs/Detection3DArray"
+            writer = publish(binding["detections"]["topic"], kind)
+            self.detections, self.boxes = (None, writer) if "camera" in binding["detections"] else (writer, None)
         self.camera = None
         if binding.get("cameras"):
             camera = binding["cameras"][0]
-            self.camera = [publish(camera["image"], "sensor_msgs/Image"), publish(camera["info"], "sensor_msgs/CameraInfo")]
+            self.pictures = pictures or Ramp(camera["image"].endswith("/compressed"))
+            kind = "sensor_msgs/CompressedImage" if camera["image"].endswith("/compressed") else "sensor_msgs/Image"
+            self.camera = {"image": (publish(camera["image"], kind), kind),
+                           "info": (publish(camera["info"], "sensor_msgs/CameraInfo"), "sensor_msgs/CameraInfo")}
+            if "depth" in camera:
+                self.camera["depth"] = (publish(camera["depth"], "sensor_msgs/Image"), "sensor_msgs/Image")
         self.servers, self.trajectories, self.twists = [], {}, None
         for controller in binding.get("controllers", []):
             self.serve_trajectories(controller)
@@ -233,11 +321,13 @@ class Robot:
             self.trajectories[key] = (goal, points, own, is_base, time.monotonic())
 
         def cancel(goal):
-            self.note("cancel", action=key, id=list(goal.id))
+            self.note("cancel", action=key, id=list(goal.id), base=list(self.body.base))
             running = self.trajectories.get(key)
             if running and running[0] is goal:
                 del self.trajectories[key]
                 self.halt(running)
+            if "rolls" in self.faults and not is_base:
+                self.rolling = time.monotonic() + 3.0
             server.end(goal, CANCELED)
 
         server = ActionServer(self.node, key, "control_msgs/FollowJointTrajectory", accept, begin, cancel, self.faults)
@@ -250,6 +340,14 @@ class Robot:
             self.body.drive(self.body.base, [0.0] * 3)
         else:
             self.body.aim({name: self.body.joints[name] for name in own}, {})
+
+    def roll(self):
+        """Lets the base roll on its own."""
+        if self.rolling:
+            x, y, yaw = self.body.base
+            is_over = time.monotonic() > self.rolling
+            self.rolling = None if is_over else self.rolling
+            self.body.drive([x + 0.0002, y, yaw], [0.0 if is_over else 0.1, 0.0, 0.0])
 
     def follow(self):
         now = time.monotonic()
@@ -374,6 +472,7 @@ class Robot:
     def tell(self):
         zero, body = self.types.zero, self.body
         header = {"stamp": stamp(), "frame_id": "odom"}
+        framed = {"stamp": stamp(time.time() - 2.0), "frame_id": "odom"} if "late-tf" in self.faults else header
         if self.is_due("joints", 0.01):
             names = list(body.joints)
             joints, speeds = dict(body.joints), body.speeds
@@ -389,12 +488,14 @@ class Robot:
             self.odometry.write(zero("nav_msgs/Odometry", header=header, child_frame_id=self.frame,
                                      pose={"pose": {"position": {"x": x, "y": y}, "orientation": turn}},
                                      twist={"twist": {"linear": {"x": vx, "y": vy}, "angular": {"z": wz}}}))
-            self.tf.write(zero("tf2_msgs/TFMessage", transforms=[{"header": header, "child_frame_id": self.frame, "transform": {
+            self.tf.write(zero("tf2_msgs/TFMessage", transforms=[{"header": framed, "child_frame_id": self.frame, "transform": {
                 "translation": {"x": x, "y": y}, "rotation": turn}}]))
         if self.is_due("slow", 0.5):
             still = {"translation": {}, "rotation": {"w": 1.0}}
             self.tf_static.write(zero("tf2_msgs/TFMessage", transforms=[{"header": {"frame_id": self.map}, "child_frame_id": "odom", "transform": still}]))
-            if self.localization:
+            if self.localization and ("volatile" in self.faults or not self.is_localized):
+                # As AMCL does, once: nothing moves it.
+                self.is_localized = True
                 covariance = [0.0] * 36
                 # Along the diagonal the place is as uncertain as sigma says, and across it certain.
                 covariance[0] = covariance[1] = covariance[6] = covariance[7] = self.sigma**2 / 2.0
@@ -402,20 +503,36 @@ class Robot:
         if self.detections and self.is_due("detections", 0.2):
             found = []
             for thing, position, (w, x, y, z), sides in body.things():
-                found.append({"results": [{"hypothesis": {"class_id": thing, "score": 0.9}}], "id": thing, "bbox": {
-                    "center": {"position": dict(zip("xyz", position)), "orientation": {"x": x, "y": y, "z": z, "w": w}},
-                    "size": dict(zip("xyz", sides))}})
+                words = [body.name(thing), ""] if "labels" in self.faults else [thing, thing]
+                found.append((words, dict(zip("xyz", position)), {"x": x, "y": y, "z": z, "w": w}, dict(zip("xyz", sides))))
+            for label, *position in self.seen:
+                found.append(([label, ""], dict(zip("xyz", map(float, position))), {"w": 1.0}, dict.fromkeys("xyz", 0.08)))
+            found = [{"results": [{"hypothesis": {"class_id": label, "score": 0.9}}], "id": own, "bbox": {
+                "center": {"position": position, "orientation": turn}, "size": sides}} for (label, own), position, turn, sides in found]
             self.detections.write(zero("vision_msgs/Detection3DArray", header={"stamp": stamp(), "frame_id": self.map}, detections=found))
         if self.camera and self.is_due("camera", 0.5):
-            head = {"stamp": stamp(), "frame_id": self.frame}
-            data = [at % 251 for at in range(3 * 64 * 48)]
-            self.camera[0].write(zero("sensor_msgs/Image", header=head, width=64, height=48, step=192, encoding="rgb8", data=data))
-            self.camera[1].write(zero("sensor_msgs/CameraInfo", header=head, width=64, height=48, k=[60.0, 0.0, 32.0, 0.0, 60.0, 24.0, 0.0, 0.0, 1.0]))
+            self.take_pictures()
+
+    def take_pictures(self):
+        messages, (frame, position, turn) = self.pictures.take(self.body, self.frame)
+        head = {"stamp": stamp(), "frame_id": frame}
+        if position is not None:
+            seen_from = {"header": {"stamp": head["stamp"], "frame_id": self.frame}, "child_frame_id": frame,
+                         "transform": {"translation": dict(zip("xyz", position)), "rotation": dict(zip("wxyz", turn))}}
+            self.tf.write(self.types.zero("tf2_msgs/TFMessage", transforms=[seen_from]))
+        for name, (writer, kind) in self.camera.items():
+            writer.write(self.types.zero(kind, header=head, **messages[name]))
+        if self.boxes:
+            found = [{"results": [{"hypothesis": {"class_id": label, "score": 0.9}}],
+                      "bbox": {"center": {"position": {"x": x, "y": y}}, "size_x": width, "size_y": height}}
+                     for label, (x, y), (width, height) in self.pictures.boxes(self.body)]
+            self.boxes.write(self.types.zero("vision_msgs/Detection2DArray", header=head, detections=found))
 
     def run(self):
         while True:
             now = time.monotonic()
             self.follow()
+            self.roll()
             behind = self.body.step(now - self.begun)
             if behind:
                 # Time of a world that does not keep up stands still meanwhile.
@@ -442,6 +559,9 @@ def main():
     parser.add_argument("--base", type=float, nargs=3, default=[0.0, 0.0, 0.0], help="pose of the base at the start")
     parser.add_argument("--sigma", type=float, default=0.005, help="standard deviation of the localisation in m")
     parser.add_argument("--turns", type=int, default=0, help="how often the axis of the base's yaw has gone round")
+    parser.add_argument("--see", nargs=4, action="append", default=[], metavar=("CLASS", "X", "Y", "Z"),
+                        help="something that the detector sees, without an id")
+    parser.add_argument("--render", action="store_true", help="pictures are those of the camera in MuJoCo, with depth")
     args = parser.parse_args()
     with open(args.binding, "rb") as file:
         binding = tomllib.load(file)
@@ -451,7 +571,8 @@ def main():
         names = [name for one in binding.get("controllers", []) for name in one.get("joints", [])]
         body = Still({**dict.fromkeys(names, 0.0), **START}, args.base)
     log = open(args.log, "a") if args.log else None
-    robot = Robot(binding, body, args.fault, args.domain, log, args.sigma, args.turns)
+    pictures = Rendered(body.world) if args.render else None
+    robot = Robot(binding, body, args.fault, args.domain, log, args.sigma, args.turns, args.see, pictures)
     print("ready", flush=True)
     robot.run()
 

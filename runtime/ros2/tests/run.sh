@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Tests of motet-ros2 against Eclipse Cyclone DDS, in a network namespace of their own: run.sh quick|physics|soak.
+# Tests of motet-ros2 against Eclipse Cyclone DDS, in a network namespace of their own: run.sh quick|fetch|physics|soak.
 # Skips with a message where a package cannot be installed or no namespace can be made.
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -24,10 +24,11 @@ export PATH="$venv/bin:$target/ros2/debug:$PATH" PYTHONPATH="$root/runtime/mujoc
 pytest=("$venv/bin/python" -m pytest -p no:cacheprovider -q -rs)
 case "$which" in
     quick) ./netns.sh "${pytest[@]}" test_driver.py test_layouts.py test_tasks.py ;;
+    fetch) ./netns.sh "${pytest[@]}" test_physics.py -k fetch_mug ;;
     physics) ./netns.sh "${pytest[@]}" test_physics.py ;;
     soak)
         GOALS=200 ./netns.sh "${pytest[@]}" -s test_driver.py -k random
         GOALS=200 LOSS=50 ./netns.sh "${pytest[@]}" -s test_driver.py -k random
         ;;
-    *) echo "run.sh quick|physics|soak"; exit 2 ;;
+    *) echo "run.sh quick|fetch|physics|soak"; exit 2 ;;
 esac

@@ -2,14 +2,19 @@
 
 import os
 import random
+import re
 import statistics
 import subprocess
 import tempfile
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
-from host import DRIVER, HERE, MOTET, Driver, RobotProcess
+from cyclonedds.builtin import BuiltinDataReader, BuiltinTopicDcpsSubscription
+from cyclonedds.core import Policy
+from cyclonedds.domain import DomainParticipant
+from host import DRIVER, HERE, MOTET, Driver, RobotProcess, drive, pixels
 from robot import spline
 
 TRAJECTORY = "/arm_trajectory_controller/follow_joint_trajectory"
@@ -122,6 +127,18 @@ def test_a_server_that_ignores_the_cancel_gets_a_trajectory_that_stands_still():
         assert len(last["points"]) == 1 and last["points"][0][2] == [0.0] * 5
 
 
+def test_nobody_says_stopped_of_an_arm_on_a_base_that_rolls():
+    with RobotProcess("--fault", "rolls") as robot, Driver() as driver:
+        goal = driver.lift(0.6, secs=5.0)
+        assert robot.wait("trajectory")
+        time.sleep(0.8)
+        driver.call("safe_stop", goal=goal)
+        assert robot.wait("cancel")
+        assert driver.report("stopped", goal, 2.5) is None, "the arm stands, and the base rolls"
+        assert driver.report("stopped", goal, 6.0) is not None
+        assert driver.moved["base"][0] > 0.1
+
+
 def test_nobody_says_stopped_of_a_robot_that_moves():
     with RobotProcess("--fault", "ignore-cancel", "--fault", "deaf"), Driver() as driver:
         goal = driver.lift(0.6, secs=5.0)
@@ -184,8 +201,17 @@ def test_without_a_robot_a_goal_fails_and_says_why():
         assert "no fresh state of `arm_lift_joint`" in outcome["failure"]["text"]
 
 
-def test_the_localisation_widens_the_clearance():
-    with RobotProcess("--sigma", "0.04") as robot, Driver() as driver:
+def test_a_transform_that_comes_late_is_old_however_steadily_it_comes():
+    with RobotProcess("--fault", "late-tf") as robot, Driver() as driver:
+        text = driver.ended(driver.lift(0.3), 15.0)["failure"]["text"]
+        assert "the last transform of `base_footprint` is 2." in text and " s old" in text, text
+        assert not robot.events("trajectory")
+
+
+@pytest.mark.parametrize("fault", ["none", "volatile"])
+def test_the_localisation_widens_the_clearance(fault):
+    """It is sent once, before the driver is there, or again and again for who is there."""
+    with RobotProcess("--sigma", "0.04", "--fault", fault), Driver() as driver:
         time.sleep(1.0)
         assert driver.ended(driver.lift(0.0, clearance=0.09)) == {"success": None}
         # A path with less room is proven anew with as much as the localisation needs.
@@ -193,6 +219,21 @@ def test_the_localisation_widens_the_clearance():
         assert driver.ended(goal, 30.0) == {"success": None}
         text = "the path keeps 0.050 m clear, and the localisation has an error of 0.080 m; a new path is looked for"
         assert driver.texts(goal) == [text]
+
+
+def test_the_localisation_is_asked_for_as_its_writers_keep_it():
+    """A writer need not send what it keeps to readers that do not ask for it, and those that ask hear no other writers."""
+    participant = DomainParticipant(0)
+    reader = BuiltinDataReader(participant, BuiltinTopicDcpsSubscription)
+    with Driver():
+        end, found = time.monotonic() + 10.0, {}
+        while len(found) < 2 and time.monotonic() < end:
+            found.update({str(one.key): one.qos for one in reader.take(256) if getattr(one, "topic_name", "") == "rt/amcl_pose"})
+            time.sleep(0.05)
+    durable = [qos for qos in found.values() if Policy.Durability.TransientLocal in qos]
+    assert len(found) == 2 and len(durable) == 1, found
+    [other] = [qos for qos in found.values() if Policy.Durability.Volatile in qos]
+    assert Policy.Reliability.BestEffort in other, "it hears every writer"
 
 
 def test_a_localisation_that_nobody_can_use_stops_motions():
@@ -315,16 +356,6 @@ def test_another_run_stops_what_moves():
         assert len(robot.events("cancel")) == 1
 
 
-def drive(driver, end, joints=(), secs=4.0):
-    """Starts a motion of the base to a place, and then of joints."""
-    path = [{"base": [0.0, 0.0, 0.0], "joints": [0.0 for _ in joints], "at": 0.0}, {"base": end, "joints": [0.0 for _ in joints], "at": secs, "ramp": 1.0}]
-    if joints:
-        path.append({"base": end, "joints": [value for _, value in joints], "at": secs + 1.0, "ramp": 0.3})
-    witness = {"joints": [name for name, _ in joints], "path": path, "clearance": 0.1}
-    args = {"to": {"entity": "counter"}}
-    return driver.start("go", [{"query": "go_to", "args": [{"entity": "counter"}], "verdict": "proven", "witness": witness}], **args)[0]
-
-
 def test_a_navigation_goes_to_the_end_of_the_path_and_then_the_arm_moves():
     with RobotProcess(binding="nav.toml") as robot, Driver("nav.toml") as driver:
         goal = drive(driver, [0.4, 0.2, 0.5], [("arm_lift_joint", 0.2)])
@@ -412,11 +443,56 @@ def test_the_binding_is_compared_with_the_network():
     assert done.returncode == 1 and "nobody serves arm_trajectory_controller" in done.stdout, done.stdout
 
 
-def test_pictures_and_unbound_primitives():
-    with RobotProcess(), Driver() as driver:
+@pytest.fixture
+def labelled(tmp_path):
+    """A binding with words for a class of the detector."""
+    path = tmp_path / "labelled.toml"
+    path.write_text((HERE / "hsr.toml").read_text().replace("[detections]", '[detections]\nlabels = { cup = "red mug" }'))
+    return path
+
+
+def test_a_detection_with_a_label_only_is_of_the_thing_that_it_describes(labelled):
+    with RobotProcess("--see", "cup", "1.9", "0.2", "0.8", binding=labelled), Driver(labelled) as driver:
+        goal, _ = driver.start("detect", what={"text": "red mug"})
+        assert driver.ended(goal, 30.0) == {"success": {"entity": "mug_1"}}
+        # It is 13 cm from where the scene has it.
+        reported = driver.report("detected", None)["detections"]
+        assert [(one["id"], one["label"]) for one in reported] == [("mug_1", "red mug")]
+        goal, _ = driver.start("detect", what={"text": "green apple"})
+        assert driver.ended(goal, 30.0)["failure"] == {"kind": "not_found", "text": "no detection is called green apple"}
+
+
+def test_a_thing_that_the_scene_lacks_is_found_by_its_label(labelled):
+    see = ["--see", "Blue stapler", "1.9", "0.6", "0.75", "--see", "tin", "1.9", "0.3", "0.75", "--see", "tin", "1.9", "0.8", "0.75"]
+    with RobotProcess(*see, binding=labelled), Driver(labelled) as driver:
+        goal, _ = driver.start("detect", what={"text": "the blue stapler"})
+        assert driver.ended(goal, 30.0) == {"success": {"entity": "blue_stapler_1"}}
+        [reported] = driver.report("detected", None)["detections"]
+        assert (reported["id"], reported["label"], reported["pose"]["xyz"]) == ("blue_stapler_1", "Blue stapler", [1.9, 0.6, 0.75])
+        goal, _ = driver.start("detect", what={"text": "tin"})
+        assert driver.ended(goal, 30.0)["failure"] == {"kind": "ambiguous", "text": "2 detections are called tin"}
+        # Motions to it are planned in a room that has it.
+        goal, _ = driver.start("home", [{"query": "look", "args": [{"entity": "blue_stapler_1"}], "verdict": "open"}])
+        assert driver.ended(goal, 30.0) == {"success": None}
+
+
+@pytest.mark.parametrize("topic", ["/camera/image", "/camera/image/compressed"])
+def test_a_picture_has_the_pixels_the_depth_and_the_camera_of_its_topics(tmp_path, topic):
+    binding = tmp_path / "pictures.toml"
+    binding.write_text((HERE / "hsr.toml").read_text().replace('"/camera/image"', '"%s"' % topic))
+    with RobotProcess(binding=binding), Driver(binding) as driver:
         time.sleep(1.2)
         picture = driver.call("look")
-        assert (picture["image"]["width"], picture["camera"]["fx"]) == (64, 60.0)
+        assert [picture["camera"][name] for name in ("fx", "fy", "cx", "cy")] == [60.0, 60.0, 32.0, 24.0]
+        colour, depth = pixels(picture)
+        assert colour.shape == (48, 64, 3) and (depth == np.where(np.arange(64) < 32, 1.25, 0.0)).all()
+        # JPEG loses something.
+        off = np.abs(colour.astype(int).ravel() - np.arange(3 * 64 * 48) % 251)
+        assert off.max() == 0 if topic == "/camera/image" else np.median(off) < 12, (off.max(), np.median(off))
+
+
+def test_missing_cameras_and_unbound_primitives():
+    with RobotProcess(), Driver() as driver:
         assert "no camera `tail`" in driver.call("look", camera="tail")["error"]["message"]
         _, answer = driver.start("fly")
         assert answer["error"]["code"] == 1 and "no steps for `fly`" in answer["error"]["data"]["failure"]["text"]
@@ -426,8 +502,14 @@ def test_pictures_and_unbound_primitives():
         assert answer == {}
 
 
+# Failures that lost packets may bring: the robot is not heard, or its server is not.
+LOST = [r"no fresh state of `\w+` on ", r"the last transform of `\w+` is [\d.]+ s old", r"nobody serves `", r" did not end in time$",
+        r"the action server (did not answer the goal within 2 s|has left|does not know the goal)", r"the robot does not stand still$"]
+
+
 def test_goals_with_random_cancels_all_have_an_end():
-    """Every goal's end is known, and none runs on. `run.sh soak` plays 200. Where packets are lost a goal may fail."""
+    """Every goal's end is known, and none runs on. `run.sh soak` plays 200, with lost packets as well: then a goal may
+    fail, for a reason that follows from the loss, and even then stands still at its end."""
     count, is_lossy = int(os.environ.get("GOALS", "25")), "LOSS" in os.environ
     chance, waits, height, failures = random.Random(7), [], 0.0, []
     with RobotProcess() as robot, Driver() as driver:
@@ -440,21 +522,30 @@ def test_goals_with_random_cancels_all_have_an_end():
                 time.sleep(chance.uniform(0.0, 0.6))
                 driver.call("cancel", goal=goal)
             outcome = driver.ended(goal, 30.0)
-            if is_lossy and outcome and "failure" in outcome:
-                failures.append(outcome["failure"]["text"])
-                outcome = {"success": None}
-            assert outcome == {"success": None} or (canceled and outcome == "interrupted"), (at, outcome)
+            assert outcome is not None, (at, "its end is not known")
+            text = outcome["failure"]["text"] if "failure" in outcome else None
+            if text is not None:
+                assert is_lossy and any(re.search(allowed, text) for allowed in LOST), (at, outcome)
+                failures.append(text)
+            else:
+                assert outcome == {"success": None} or (canceled and outcome == "interrupted"), (at, outcome)
+            assert driver.call("status", goals=[goal])["goals"][0]["state"] == {"ended": outcome}
             waits += [float(text.split()[-2]) for text in driver.texts(goal) if "accepted after" in text]
             driver.reports.clear()
             time.sleep(0.06)
             driver.call("ping")
             height = driver.moved["joints"]["arm_lift_joint"]
+            if is_lossy or at % 5 == 0:
+                time.sleep(0.3)
+                driver.call("ping")
+                assert abs(driver.moved["joints"]["arm_lift_joint"] - height) < 1e-3, (at, "it moves on after its end")
         time.sleep(1.0)
         begun, over = robot.events("trajectory"), robot.events("done") + robot.events("cancel")
         assert {tuple(event["id"]) for event in begun} == {tuple(event["id"]) for event in over}
+        assert len(failures) <= count // 4, "%d of %d goals failed" % (len(failures), count)
     waits.sort()
     print("%d goals failed: %s" % (len(failures), sorted(set(failures))))
-    print("start to accept: median %.2f ms, p99 %.2f ms, greatest %.2f ms of %d goals"
+    print("start to accept: median %.2f ms (aim: 5 ms), p99 %.2f ms, greatest %.2f ms of %d goals"
           % (statistics.median(waits), waits[int(0.99 * (len(waits) - 1))], waits[-1], len(waits)))
 
 
