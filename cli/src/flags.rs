@@ -281,7 +281,8 @@ pub(crate) struct PageArgs {
     #[arg(long, value_name = "ADDRESS", num_args = 0..=1, require_equals = true, default_missing_value = "",
           value_parser = address)]
     pub(crate) view: Option<SocketAddr>,
-    /// Write the address of the page, with its token, to a file that only its owner reads, and print it nowhere
+    /// Write the address of the page, with its token, to a file that only its owner reads, and print it
+    /// nowhere
     #[arg(long, value_name = "FILE", requires = "view")]
     pub(crate) view_file: Option<PathBuf>,
 }

@@ -373,8 +373,8 @@ impl Agent {
         Ok(json!({"order": folder.id(), "is_told": is_told}))
     }
 
-    /// Stops the run if the key of its order is trusted no more. A file that is being written may lack it for a
-    /// moment, so two looks count.
+    /// Stops the run if the key of its order is trusted no more. A file that is being written may lack it for
+    /// a moment, so two looks count.
     async fn watch_trust(&self) -> Result<(), String> {
         let revoked = || {
             let current = self.current().clone()?;

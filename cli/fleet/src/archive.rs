@@ -9,9 +9,9 @@ use std::io::{Read as _, Seek as _, SeekFrom, Write as _};
 use std::path::{Path, PathBuf};
 use url::Url;
 
-/// List of the objects of a journal in the archive, with their checksums, as `sha256sum --check` reads it. It is
-/// written last. A file that is larger than [`PART`] is in several objects, `NAME@NUMBER-DIGITS`; the checksum of
-/// the whole is in a comment.
+/// List of the objects of a journal in the archive, with their checksums, as `sha256sum --check` reads it. It
+/// is written last. A file that is larger than [`PART`] is in several objects, `NAME@NUMBER-DIGITS`; the
+/// checksum of the whole is in a comment.
 const LIST: &str = "SHA256SUMS";
 /// Bytes of an object at most, so that a push that was cut off begins little anew.
 const PART: u64 = 16 * 1024 * 1024;

@@ -1,9 +1,10 @@
 //! The server: streams, buckets and subjects.
 
-use crate::signed::is_name;
+use crate::signed::{What, is_name, new_id, sign};
 use async_nats::jetstream::consumer::PullConsumer;
 use async_nats::jetstream::{self, kv, stream};
 use async_nats::{Client, ConnectOptions};
+use ed25519_dalek::SigningKey;
 use futures::StreamExt as _;
 use serde_json::{Value, json};
 use std::io::Write as _;
@@ -187,6 +188,20 @@ impl Fleet {
         let answer = answer.map_err(|error| format!("the robot does not answer: {error}"))?;
         serde_json::from_slice(&answer.payload).map_err(|error| format!("the answer is none: {error}"))
     }
+
+    /// Answers a question `ORDER/NUMBER`: the one that the operator has read, whatever is open now.
+    pub(crate) async fn answer(
+        &self,
+        key: &SigningKey,
+        robot: &str,
+        question: &str,
+        text: &str,
+    ) -> Result<Value, String> {
+        let (order, question) = question.split_once('/').ok_or("write --question ORDER/NUMBER")?;
+        let (order, question) = (order.to_owned(), question.to_owned());
+        let what = What::Answer { order, question, text: text.to_owned() };
+        self.request(robot, "answer", sign(key, &new_id()?, robot, 60, what)?).await
+    }
 }
 
 /// Greatest size of a value that goes into a message.
@@ -216,8 +231,8 @@ pub(crate) fn say(text: &str) {
     let _ = writeln!(std::io::stdout(), "{text}");
 }
 
-/// Name in the bucket of results for the refusal of words with the id of another order. The result of that one
-/// stays where it is.
+/// Name in the bucket of results for the refusal of words with the id of another order. The result of that
+/// one stays where it is.
 pub(crate) fn refusal(order: &str, digest: &str) -> String {
     format!("{order}={digest}")
 }

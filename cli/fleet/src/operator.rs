@@ -4,7 +4,6 @@ use crate::journal;
 use crate::link::{ANSWERS, Fleet, POLICIES, RESULTS, STATES, SWAPS, ServerArgs, name, refusal, say};
 use crate::signed::{What, new_id, new_key, now, private_key, sign};
 use async_nats::jetstream::kv;
-use ed25519_dalek::SigningKey;
 use futures::StreamExt as _;
 use serde_json::{Value, json};
 use std::io::Read as _;
@@ -300,21 +299,7 @@ async fn ask(fleet: &Fleet, args: &AskArgs) -> Result<u8, String> {
         return Ok(0);
     };
     let key = private_key(args.key.as_deref().ok_or("an answer needs --key")?)?;
-    report(&tell(fleet, &key, &args.robot, question, answer).await?)
-}
-
-/// Answers a question `ORDER/NUMBER`: the one that the operator has read, whatever is open now.
-pub(crate) async fn tell(
-    fleet: &Fleet,
-    key: &SigningKey,
-    robot: &str,
-    question: &str,
-    answer: &str,
-) -> Result<Value, String> {
-    let (order, question) = question.split_once('/').ok_or("write --question ORDER/NUMBER")?;
-    let (order, question) = (order.to_owned(), question.to_owned());
-    let what = What::Answer { order, question, text: answer.to_owned() };
-    fleet.request(robot, "answer", sign(key, &new_id()?, robot, 60, what)?).await
+    report(&fleet.answer(&key, &args.robot, question, answer).await?)
 }
 
 /// State of a robot as it told it last.

@@ -70,7 +70,7 @@ fn shown(key: &str, at: i64, value: &[u8]) -> Value {
     };
     let lines: Vec<String> = findings.iter().take(FINDINGS).map(line).collect();
     json!({
-        "key": key, "robot": robot, "order": order, "at": at, "is_of_other": other,
+        "key": key, "robot": robot, "order": order, "written": at, "is_of_other": other,
         "state": text("state"), "outcome": text("outcome"), "why": text("why"),
         "findings": lines, "more": findings.len() - lines.len(),
     })
@@ -87,7 +87,7 @@ mod tests {
             "robot": "other"});
         let told = shown("r1.order-1", 7, result.to_string().as_bytes());
         assert_eq!(
-            (&told["robot"], &told["order"], &told["at"]),
+            (&told["robot"], &told["order"], &told["written"]),
             (&json!("r1"), &json!("order-1"), &json!(7))
         );
         assert_eq!(told["findings"].as_array().unwrap().len(), FINDINGS);

@@ -74,8 +74,8 @@ impl What {
     }
 }
 
-/// File with the keys of people whose words a robot follows. It is read anew at each use, so that a key that is
-/// taken out of it counts no more.
+/// File with the keys of people whose words a robot follows. It is read anew at each use, so that a key that
+/// is taken out of it counts no more.
 #[derive(Debug)]
 pub(crate) struct TrustFile {
     path: PathBuf,

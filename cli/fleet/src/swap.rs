@@ -55,8 +55,8 @@ impl Agent {
         OrderFolder(self.root.join("swaps"))
     }
 
-    /// Lets a policy take over, once: its id, with what became of it. For one that was offered before, it says
-    /// what became of it then; `None` if the server knows.
+    /// Lets a policy take over, once: its id, with what became of it. For one that was offered before, it
+    /// says what became of it then; `None` if the server knows.
     async fn swap(&self, bytes: &[u8]) -> Result<Option<(String, Value)>, String> {
         let words = read(bytes, &self.trust.now(), &self.robot)?;
         let (id, What::Swap { order, policy }) = (words.id.clone(), &words.what) else {

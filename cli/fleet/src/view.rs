@@ -23,7 +23,8 @@ use tokio::sync::Semaphore;
 const PAGE: &str = include_str!("fleet.html");
 /// What a browser may load: nothing but the page itself.
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; \
-                      connect-src 'self'; img-src data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+                      connect-src 'self'; img-src data:; base-uri 'none'; form-action 'none'; \
+                      frame-ancestors 'none'";
 /// What the page of a journal may do, beside its own policy: it is not of the origin of this page.
 const JOURNAL_POLICY: &str = "sandbox allow-scripts; frame-ancestors 'none'";
 /// Most bytes of a journal that is shown, and pages of journals that are kept.
@@ -196,7 +197,7 @@ async fn answer(
         return Err(wrong(&format!("an answer has 1 to {MOST_LETTERS} letters")));
     }
     let key = page.key.as_ref().ok_or_else(|| wrong("this page has no key: `motet fleet ask` answers"))?;
-    let told = crate::operator::tell(&page.fleet, key, &robot, &given.question, &given.text).await;
+    let told = page.fleet.answer(key, &robot, &given.question, &given.text).await;
     Ok(Json(told.map_err(far)?).into_response())
 }
 
@@ -218,7 +219,7 @@ async fn make_journal(
     while pages.len() > MOST_PAGES {
         pages.pop_front();
     }
-    Ok(Json(json!({"at": format!("/journal/{name}")})).into_response())
+    Ok(Json(json!({"page": format!("/journal/{name}")})).into_response())
 }
 
 /// Shows a page that was made; its name is what admits a reader.

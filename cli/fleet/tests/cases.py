@@ -284,15 +284,21 @@ class Cases:
             for path, body in (("/robots", None), ("/stop/r1", b""), ("/answer/r1", b"{}"), ("/journal/r1/stops", b"")):
                 assert get(path, body, **wrong)[0] == 403, (wrong, path)
         assert get("/stop/no%20robot", b"")[0] == 404
-        told = self.wait(lambda: (told := json.loads(get("/robots")[2]))["results"] and told, "there are no results")
+
+        def shown():
+            """The page, once it has read the results up to those of the cases before."""
+            told = json.loads(get("/robots")[2])
+            results = {(result["robot"], result["order"]): result for result in told["results"]}
+            return (told, results) if ("r1", "stops") in results else None
+
+        told, results = self.wait(shown, "the results are not shown")
         assert [robot for robot, _ in told["robots"]] == sorted(self.agents) and told["signs"] and told["shows"], told
-        results = {(result["robot"], result["order"]): result for result in told["results"]}
         assert results["r1", "stops"]["outcome"] == "interrupted", results
         assert len(told["results"]) <= 100
         order = next(order for (robot, order), result in results.items() if result["outcome"] == "done" and order in self.orders)
         status, _, made = get("/journal/%s/%s" % (self.orders[order], order), b"")
         assert status == 200, made
-        place = json.loads(made)["at"]
+        place = json.loads(made)["page"]
         status, headers, html = get(place, **{"x-motet-token": ""})
         assert status == 200 and "sandbox" in headers["content-security-policy"]
         assert "Order %s." % order.split("-")[1] in html, html[:500]

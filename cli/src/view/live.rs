@@ -41,8 +41,8 @@ pub(crate) struct LivePage {
 }
 
 impl LivePage {
-    /// Serves a page at an address, and says where: in a file if one is given, otherwise on stderr. `takes` names
-    /// the commands of its operator.
+    /// Serves a page at an address, and says where: in a file if one is given, otherwise on stderr. `takes`
+    /// names the commands of its operator.
     pub(crate) fn start(
         address: SocketAddr,
         file: Option<&Path>,

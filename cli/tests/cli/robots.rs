@@ -28,9 +28,11 @@ fn collada(centre_x_mm: f64) -> String {
 const FOLDED: &str = r#"<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="folded">
 <xacro:arg name="size" default="0.02"/>
 <xacro:include filename="$(find parts)/urdf/turn.xacro"/>
-<link name="base"><collision><origin xyz="0 0 0.5"/><geometry><box size="$(arg size) $(arg size) $(arg size)"/>
+<link name="base"><collision><origin xyz="0 0 0.5"/><geometry>
+    <box size="$(arg size) $(arg size) $(arg size)"/>
 </geometry></collision></link><link name="one"/><link name="two"/>
-<link name="tool0"><collision><geometry><mesh filename="package://parts/meshes/blade.dae"/></geometry></collision>
+<link name="tool0"><collision><geometry><mesh filename="package://parts/meshes/blade.dae"/></geometry>
+    </collision>
 </link>
 <xacro:turn name="turn" parent="base" child="one" at="0 0 0.5" axis="0 0 1" lower="-3" upper="3"/>
 <xacro:turn name="lift" parent="one" child="two" at="0 0 0" axis="0 1 0" lower="-1" upper="0"/>
@@ -96,14 +98,18 @@ fn add_tells_the_meshes_that_it_could_not_read() {
 }
 
 /// An arm of three joints, one of two with a gripper, and a neck.
-const ARMS: &str = "<robot name='arms'><link name='base'/><link name='a1'/><link name='a2'/><link name='a_tool0'/>
+const ARMS: &str = "<robot name='arms'><link name='base'/><link name='a1'/><link name='a2'/>
+    <link name='a_tool0'/>
   <link name='b1'/><link name='b_gripper'/><link name='neck'/>
   <joint name='a1_joint' type='revolute'><parent link='base'/><child link='a1'/>LIMIT</joint>
-  <joint name='a2_joint' type='revolute'><origin xyz='0 0 0.3'/><parent link='a1'/><child link='a2'/>LIMIT</joint>
-  <joint name='a3_joint' type='revolute'><origin xyz='0 0 0.3'/><parent link='a2'/><child link='a_tool0'/>LIMIT\
+  <joint name='a2_joint' type='revolute'><origin xyz='0 0 0.3'/><parent link='a1'/>
+    <child link='a2'/>LIMIT</joint>
+  <joint name='a3_joint' type='revolute'><origin xyz='0 0 0.3'/><parent link='a2'/>
+    <child link='a_tool0'/>LIMIT\
     </joint>
   <joint name='b1_joint' type='revolute'><parent link='base'/><child link='b1'/>LIMIT</joint>
-  <joint name='b2_joint' type='revolute'><origin xyz='0 0 0.3'/><parent link='b1'/><child link='b_gripper'/>LIMIT\
+  <joint name='b2_joint' type='revolute'><origin xyz='0 0 0.3'/><parent link='b1'/>
+    <child link='b_gripper'/>LIMIT\
     </joint>
   <joint name='neck_joint' type='revolute'><parent link='base'/><child link='neck'/>LIMIT</joint></robot>";
 
@@ -124,16 +130,20 @@ fn add_tells_the_other_arms_and_takes_them_by_their_tips() {
         .check(2, &["err:has no link `c_gripper`"]);
 }
 
-/// A lid that is in the base wherever its joint is, a rod that is in both at rest alone, and as many balls in the
-/// base as `BALLS` says.
+/// A lid that is in the base wherever its joint is, a rod that is in both at rest alone, and as many balls in
+/// the base as `BALLS` says.
 const SHUT: &str = "<robot name='shut'>
   <link name='base'><collision><origin xyz='0 0 0.5'/><geometry><sphere radius='0.2'/></geometry></collision>\
     </link>
-  <link name='mid'/><link name='lid'><collision><geometry><sphere radius='0.15'/></geometry></collision></link>
-  <link name='mast'/><link name='rod'><collision><geometry><sphere radius='0.05'/></geometry></collision></link>
-  <joint name='turn' type='revolute'><origin xyz='0 0 0.5'/><parent link='base'/><child link='mid'/>NEAR</joint>
+  <link name='mid'/><link name='lid'><collision><geometry><sphere radius='0.15'/></geometry></collision>
+    </link>
+  <link name='mast'/><link name='rod'><collision><geometry><sphere radius='0.05'/></geometry></collision>
+    </link>
+  <joint name='turn' type='revolute'><origin xyz='0 0 0.5'/><parent link='base'/>
+    <child link='mid'/>NEAR</joint>
   <joint name='open' type='prismatic'><parent link='mid'/><child link='lid'/>NEAR</joint>
-  <joint name='lean' type='revolute'><origin xyz='0 0 0.5'/><parent link='base'/><child link='mast'/>NEAR</joint>
+  <joint name='lean' type='revolute'><origin xyz='0 0 0.5'/><parent link='base'/>
+    <child link='mast'/>NEAR</joint>
   <joint name='rise' type='prismatic'><parent link='mast'/><child link='rod'/>FAR</joint>BALLS</robot>";
 
 #[test]
@@ -143,7 +153,8 @@ fn add_and_check_list_all_pairs_that_touch_and_may_not() {
     };
     let ball = |at: usize| {
         format!(
-            "<link name='pin{at}'/><link name='ball{at}'><collision><geometry><sphere radius='0.01'/></geometry>
+            "<link name='pin{at}'/><link name='ball{at}'><collision><geometry><sphere radius='0.01'/>
+    </geometry>
             </collision></link><joint name='pin{at}_joint' type='revolute'><origin xyz='0 0 0.5'/>
             <parent link='base'/><child link='pin{at}'/>{near}</joint><joint name='ball{at}_joint'
             type='prismatic'><parent link='pin{at}'/><child link='ball{at}'/>{far}</joint>",

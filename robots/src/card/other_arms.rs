@@ -1,13 +1,14 @@
-//! Arms of a robot that the first card leaves out: a card has one hand, and nobody is to lose an arm silently.
+//! Arms of a robot that the first card leaves out: a card has one hand, and nobody is to lose an arm
+//! silently.
 
 use smol_str::SmolStr;
 
 use super::draft_parts::{ARM, ArmStem, DraftBase, TIPS, beyond, has_word, senses, stems, works};
 use crate::urdf::Urdf;
 
-/// Tips of arms that the card of a draft leaves out, longest first, with the number of their own joints: chains
-/// of at least three joints that the arm to `tip`, the link of the hand of the card, does not share, and shorter
-/// ones that carry a gripper or a tool. O(arms × links × joints).
+/// Tips of arms that the card of a draft leaves out, longest first, with the number of their own joints:
+/// chains of at least three joints that the arm to `tip`, the link of the hand of the card, does not share,
+/// and shorter ones that carry a gripper or a tool. O(arms × links × joints).
 ///
 /// ```
 /// use motet_robots::{builtin, card};

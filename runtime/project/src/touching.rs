@@ -15,8 +15,9 @@ pub struct Touching {
     pub more: usize,
 }
 
-/// Finds all pairs of links that touch with the joints at some positions, and lists 200 at most. Not among them
-/// are pairs that may touch: those that an SRDF allows, and those that touch in every posture. O(parts²).
+/// Finds all pairs of links that touch with the joints at some positions, and lists 200 at most. Not among
+/// them are pairs that may touch: those that an SRDF allows, and those that touch in every posture.
+/// O(parts²).
 #[must_use]
 pub fn touching(machine: &RobotModel, joints: &[f64]) -> Touching {
     let found = machine.own_contacts(&Configuration { base: [0.0; 3], joints: joints.to_vec() });
