@@ -48,6 +48,11 @@ pub(crate) fn jumps(speed: Speed, clock: Clock) -> bool {
     speed == Speed::Max && clock == Clock::Simulated
 }
 
+/// Capabilities of a driver beside which somebody answers questions.
+pub(crate) fn answering(can: Capabilities) -> Capabilities {
+    Capabilities { primitives: can.primitives.with([primitives::ASK, primitives::CHOOSE]), ..can }
+}
+
 /// A person or a program that answers questions, one at a time.
 pub(crate) trait Answerer {
     /// Begins to ask a question.
@@ -173,7 +178,7 @@ impl<A: Answerer> Driver for QuestionDriver<'_, A> {
     }
 
     fn capabilities(&self) -> Capabilities {
-        self.driver.capabilities()
+        answering(self.driver.capabilities())
     }
 
     fn base(&self) -> Option<[f64; 3]> {

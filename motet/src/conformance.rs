@@ -52,7 +52,8 @@ pub struct DriverResult {
 ///
 /// # Errors
 ///
-/// A clause that says why the driver cannot be reached, or why the patience is no span.
+/// A clause that says why the driver cannot be reached, that it does not have the primitive of the call, or
+/// why the patience is no span.
 pub fn check(
     command: Command,
     patience_secs: Option<f64>,
@@ -63,6 +64,9 @@ pub fn check(
     let greeted = connect(log)?;
     let is_virtual = greeted.capabilities().clock == DriverClock::Driver;
     let driver = escape(&greeted.welcome().driver);
+    if !greeted.capabilities().primitives.contains(&command.primitive) {
+        return Err(format!("{driver} does not have `{}`: check it with another call", command.primitive));
+    }
     drop(greeted);
     let patience = match (patience_secs, is_virtual) {
         (Some(secs), _) => secs,

@@ -5,6 +5,7 @@ use motet_host::journal::JournalError;
 use motet_host::remote::LinkError;
 use motet_planner::builtin::PlanError;
 use motet_project::ProjectError;
+use motet_runtime::MissingPrimitive;
 use motet_syntax::{Diagnostic, Severity, Sources, render};
 use thiserror::Error as ThisError;
 
@@ -30,6 +31,9 @@ pub enum Error {
     /// The graph was not made by the compiler and is not valid.
     #[error("the graph is not valid{}", .0.first().map_or_else(String::new, |error| format!(": {error}")))]
     Graph(Vec<InvalidGraph>),
+    /// The policy calls primitives that the driver does not have. Nothing has moved.
+    #[error("the driver does not have {}", MissingPrimitive::list(.0))]
+    Lacking(Vec<MissingPrimitive>),
     /// A driver does not speak the driver protocol.
     #[error("{0}")]
     Driver(#[from] LinkError),
@@ -50,6 +54,7 @@ impl Error {
             | Self::NoRobot
             | Self::NoBody(_)
             | Self::Graph(_)
+            | Self::Lacking(_)
             | Self::Driver(_)
             | Self::Journal(_) => &[],
         }

@@ -189,7 +189,7 @@ impl Motet {
     ///
     /// # Errors
     ///
-    /// [`Error::Graph`], never for a policy of this session.
+    /// [`Error::Graph`], never for a policy of this session; [`Error::Lacking`].
     pub fn run(&self, policy: &CheckedPolicy, driver: &mut dyn Driver) -> Result<RunEnd, Error> {
         self.run_observed(policy, driver, &mut ())
     }
@@ -198,7 +198,7 @@ impl Motet {
     ///
     /// # Errors
     ///
-    /// [`Error::Graph`], never for a policy of this session.
+    /// [`Error::Graph`], never for a policy of this session; [`Error::Lacking`].
     pub fn run_observed(
         &self,
         policy: &CheckedPolicy,

@@ -45,7 +45,8 @@ pub fn start_state(scene: Option<&Scene>) -> StartState {
 ///
 /// # Errors
 ///
-/// [`Error::Graph`] if the graph is not valid; a graph of the compiler always is.
+/// [`Error::Graph`] if the graph is not valid; a graph of the compiler always is. [`Error::Lacking`] if it
+/// calls primitives that the driver does not have.
 pub fn engine(
     graph: Graph,
     start: &StartState,
@@ -54,6 +55,10 @@ pub fn engine(
     settings: EngineSettings,
 ) -> Result<Engine, Error> {
     let engine = Engine::new(graph, start).map_err(Error::Graph)?;
+    let missing = capabilities.missing(engine.graph());
+    if !missing.is_empty() {
+        return Err(Error::Lacking(missing));
+    }
     let settings = EngineSettings { verify_within: guard.map(|_| WITHIN), ..settings };
     Ok(engine.with_capabilities(capabilities).with_settings(settings))
 }

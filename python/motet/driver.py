@@ -20,6 +20,7 @@ from __future__ import annotations
 
 import asyncio
 import inspect
+import keyword
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -190,6 +191,9 @@ def observes(name: str) -> Callable[[Method], Method]:
 class Driver:
     """A robot. A subclass has one `async def` for each primitive, and a method for each fact or measure that it observes.
 
+    The coroutines whose names do not begin with `_` are the primitives that it has; a subclass with a `perform` of its own has
+    all. A policy that calls another primitive is refused before anything moves.
+
     A coroutine gets the goal and the arguments of the primitive by name; a name that is a keyword of Python has an underscore at
     its end, such as `from_`. What it returns is the result. It raises `Failed` to end in a failure, and `Refused`, before its
     first `await`, to refuse. An observation returns a bool for a fact, a number in SI units for a measure, None for unknown.
@@ -245,10 +249,21 @@ class Driver:
         def which(names: str | tuple[str, ...]) -> Any:
             return names if names == "all" else {"only": list(names)}
 
-        capabilities = {"hold": which(self.can_hold), "update": which(self.can_update), "moved": True}
+        capabilities = {"primitives": self._primitives(), "hold": which(self.can_hold), "update": which(self.can_update),
+                        "moved": True}
         for name in ("look", "detections", "told"):
             capabilities[name] = callable(getattr(self, name, None))
         return capabilities | ({"clock": "driver"} if self.owns_clock else {})
+
+    def _primitives(self) -> Any:
+        """The primitives that the driver has: those with a coroutine, or all with a `perform` of its own."""
+        if type(self).perform is not Driver.perform:
+            return "all"
+        methods = {name: getattr(type(self), name, None) for name in dir(type(self))} | vars(self)
+        own = [name for name, method in methods.items()
+               if inspect.iscoroutinefunction(method) and not inspect.iscoroutinefunction(getattr(Driver, name, None))]
+        named = [name[:-1] if name.endswith("_") and keyword.iskeyword(name[:-1]) else name for name in own]
+        return {"only": sorted(name for name in named if not name.startswith("_"))}
 
     def _performer(self, primitive: str) -> Callable[..., Any]:
         method = getattr(self, python_name(primitive), None)
@@ -256,21 +271,13 @@ class Driver:
         is_own = own is not None and getattr(method, "__func__", None) is own
         return method if inspect.iscoroutinefunction(method) and not is_own else self.perform
 
-    def _performs(self, primitive: str) -> bool:
-        """True if the driver has a way to carry a primitive out."""
-        return self._performer(primitive) != self.perform or type(self).perform is not Driver.perform
-
     def _unfit(self, calls: Mapping[str, tuple[str, ...]]) -> list[str]:
-        """What keeps the driver from carrying out some primitives with these parameters, each in a clause."""
+        """What keeps its coroutines from taking these parameters of their primitives, each in a clause."""
         unfit = []
         for primitive, params in calls.items():
             names = [python_name(name) for name in params]
-            method = self._performer(primitive)
-            if not self._performs(primitive):
-                unfit.append(f"it has no `async def {python_name(primitive)}({', '.join(['self', 'goal', *names])})`")
-                continue
             try:
-                inspect.signature(method).bind(None, **dict.fromkeys(names))
+                inspect.signature(self._performer(primitive)).bind(None, **dict.fromkeys(names))
             except TypeError as wrong:
                 unfit.append(f"its `{python_name(primitive)}` does not take `goal, {', '.join(names)}`: {wrong}")
         return unfit

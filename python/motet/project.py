@@ -175,7 +175,7 @@ class Project:
         observe: they are unknown, and a step that needs one fails.
 
         Raises `motet.PolicyError` if the check refuses the policy, and `motet.InputError`, before anything moves, if the driver
-        has no coroutine for a primitive of the policy.
+        has no coroutine for a primitive of the policy, or one that does not take its parameters.
         """
         graph = self.compile(policy, choose=choose, name=name)
         unfit = driver._unfit(graph.calls)

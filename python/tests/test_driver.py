@@ -232,3 +232,23 @@ def test_a_loop_on_the_clock_of_the_wall_keeps_a_driver(robot):
     loop.run_until_complete(lead())
     assert robot.door and session.states[1] == {"ended": {"success": None}}
     loop.close()
+
+
+def test_a_driver_says_which_primitives_it_has():
+    class Any(Robot):
+        async def perform(self, goal, **args):
+            pass
+
+    class Odd(Driver):
+        async def return_(self, goal):
+            pass
+
+        async def _helper(self):
+            pass
+
+        def at(self, place):
+            return True
+
+    assert Robot()._capabilities()["primitives"] == {"only": ["ask", "go", "open", "pick", "say"]}
+    assert Any()._capabilities()["primitives"] == "all"
+    assert Odd()._capabilities()["primitives"] == {"only": ["return"]}

@@ -21,7 +21,9 @@ use motet_project::{Project, ProjectSession, SavedDriver, SavedProject};
 use motet_runtime::journal::{
     DriverReplay, EngineReplay, JournalEntry, JournalHead, OpenGoals, ResumeEntry, StepEntry,
 };
-use motet_runtime::{Driver, DriverClock, Event, Observer as _, Time, Verifier as _};
+use motet_runtime::{
+    Capabilities, Driver, DriverClock, Event, MissingPrimitive, Observer as _, Time, Verifier as _,
+};
 use motet_syntax::{Parsed, Severity, Syntax};
 
 use crate::conversation::operator::{OperatorAnswers, OperatorInput, OperatorPrompt};
@@ -32,7 +34,7 @@ use crate::flags::{
 };
 use crate::interrupt::note_open;
 use crate::output::{Colors, count, escape, note, opened_again, replace_file};
-use crate::questions::{QuestionDriver, jumps};
+use crate::questions::{QuestionDriver, answering, jumps};
 use crate::ready_driver::{ReadyDriver, RunSubject, open_driver};
 use crate::report::Report;
 use crate::run_view::{Clock, view};
@@ -131,14 +133,20 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
     let wanted = RunSubject { run: &run, policy: Some((&graph, &parsed)), opened };
     let ReadyDriver { mut driver, saved, clock, speed, settings, .. } =
         open_driver(&args.driver, &args.session.environment, &wanted, report)?;
+    // The simulated person of a script answers the questions of policies.
+    let has_person = args.page.view.is_some() && args.driver.answers.is_none();
+    let can = capabilities(&*driver, has_person);
+    let missing = can.missing(&graph);
+    if !missing.is_empty() {
+        refuse(&missing, &text, args.format, report);
+        return Ok(Exit::Findings);
+    }
     let page = LivePage::shared(&args.page, opened, TAKES)?;
     let written = (text.text.clone(), parsed.syntax);
     page.iter().for_each(|page| page.borrow_mut().text(text.clone()));
     let start = start_state(opened.scene.as_ref());
     let guard = opened.session.world_tracker().map(|course| Guard::new(course, speed.verifies()));
-    let engine = engine(graph, &start, driver.capabilities(), guard.as_ref(), settings)?;
-    // The simulated person of a script answers the questions of policies.
-    let has_person = page.is_some() && args.driver.answers.is_none();
+    let engine = engine(graph, &start, can, guard.as_ref(), settings)?;
     let is_simulated = matches!(&saved, Some(SavedDriver::Simulator(_)));
     let journal = match args.record.as_deref().zip(saved) {
         Some((folder, saved)) => {
@@ -167,6 +175,25 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
     let paced = with_desk(paced, page.as_ref(), Some(Arc::clone(&shared)), args, (colors, clock));
     let events = vec![Event::Begin];
     Runner { engine, driver, journal, is_simulated, from: Time::ZERO, events }.run(paced, beginning)
+}
+
+/// Capabilities of a driver, with those of the person who answers at the page of the run.
+fn capabilities(driver: &dyn Driver, has_person: bool) -> Capabilities {
+    let can = driver.capabilities();
+    if has_person { answering(can) } else { can }
+}
+
+/// Says which primitives the driver does not have, and the lines of their first calls.
+fn refuse(missing: &[MissingPrimitive], text: &PolicyText, format: OutputFormat, report: &mut Report) {
+    if format == OutputFormat::Json {
+        report.out.line(&events::refused(missing, text));
+    }
+    let place = |one: &MissingPrimitive| match text.line(&one.path) {
+        Some(line) => format!("`{}` ({}:{line})", one.name, escape(&text.name)),
+        None => one.to_string(),
+    };
+    let places: Vec<String> = missing.iter().map(place).collect();
+    note(&format!("refused: the driver does not have {}; nothing has moved", places.join(", ")));
 }
 
 /// Operator at the page of a run; nobody without one.
@@ -328,6 +355,10 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
         (SavedDriver::Process { address, instance, .. }, _) => {
             let hello = Hello { resumed: true, ..Hello::of(replay.engine().graph(), &run) };
             let mut driver = connect(&address.into(), hello, from)?;
+            let missing = capabilities(&driver, has_person).missing(replay.engine().graph());
+            if !missing.is_empty() {
+                return Err(motet::Error::Lacking(missing).into());
+            }
             let caught_up = driver.catch_up(&ledger, &instance, from);
             events.extend(caught_up.map_err(|breakage| CliError::Message(breakage.to_string()))?);
             Box::new(driver)

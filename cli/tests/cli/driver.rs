@@ -134,6 +134,45 @@ fn drives_the_example() {
 }
 
 #[test]
+fn a_policy_with_a_primitive_that_the_driver_lacks_is_refused_before_anything_moves() {
+    if !has_python() {
+        return;
+    }
+    // It has `go` and `say`, and writes down what it does.
+    let package = concat!(env!("CARGO_MANIFEST_DIR"), "/../python");
+    let driver = format!(
+        "import sys\nsys.path.append({package:?})\nimport motet\n\
+         class Cart(motet.Driver):\n\
+         \x20   async def go(self, goal, to):\n\
+         \x20       print('moves', file=sys.stderr)\n\
+         \x20       await goal.sleep(0.3)\n\
+         \x20   async def say(self, goal, text): pass\n\
+         motet.serve(Cart())\n"
+    );
+    let place =
+        Place::new("drive_lacks").file("good.motet", GOOD).file("away.motet", AWAY).file("cart.py", driver);
+    let cart = format!("python3 '{}'", place.path("cart.py").display());
+    place.run_args(&driven("away.motet", &cart)).check(0, &["out:✓ away: done", "err:moves"]);
+    let refused = place.run_args(&driven("good.motet", &cart));
+    let text = "err:refused: the driver does not have `detect` (good.motet:3), `pick` (good.motet:4), \
+                `place` (good.motet:6); nothing has moved";
+    refused.check(1, &[text]);
+    assert!(!refused.stderr.contains("moves"), "{refused:#?}");
+    let json = [driven("good.motet", &cart), vec!["--format".to_owned(), "json".to_owned()]].concat();
+    let event =
+        "out:{\"event\":\"refused\",\"missing\":[{\"primitive\":\"detect\",\"path\":\"/steps/1\",\"line\":3}";
+    place.run_args(&json).check(1, &[event]);
+    let check = ["run", "good.motet", "--scene", "kitchen", "--check", "--driver", &cart];
+    place
+        .run_args(&check.map(str::to_owned))
+        .check(0, &["out:✓ a primitive that it lacks", "out:Cart keeps the laws"]);
+    let request = ["do", "bring me the red mug", "--robot", "hsr", "--scene", "kitchen", "--driver", &cart];
+    let undone = place.run_args(&request.map(str::to_owned));
+    undone.check(3, &["err:The driver of the robot does not have `search`, `pick` and `handover`"]);
+    assert!(!undone.stderr.contains("moves"), "{undone:#?}");
+}
+
+#[test]
 fn a_driver_that_misbehaves_is_named_and_stopped_safely() {
     if !has_python() {
         return;

@@ -6,11 +6,13 @@ use std::sync::Arc;
 use motet_graph::draw::Names;
 use motet_graph::{FailureId, Graph, NodeId, NodeKind, Value};
 use motet_runtime::{
-    Command, DriverEvent, Effect, EndCause, Event, GoalId, NodeEnding, Outcome, RunEnd, Time, TraceEvent,
-    TraceEventKind, Truth,
+    Command, DriverEvent, Effect, EndCause, Event, GoalId, MissingPrimitive, NodeEnding, Outcome, RunEnd,
+    Time, TraceEvent, TraceEventKind, Truth,
 };
 use motet_syntax::{Diagnostic, Sources, render};
 use serde_json::{Map, json};
+
+use crate::page::source::PolicyText;
 
 /// Writer of the events of a run: it takes what the engine handles and gives out, and returns lines.
 #[derive(Debug)]
@@ -205,6 +207,21 @@ pub fn diagnostics(diagnostics: &[Diagnostic], sources: &Sources) -> Vec<String>
         serde_json::Value::Object(line).to_string()
     };
     diagnostics.iter().map(line).collect()
+}
+
+/// Line of the refusal of a policy by its driver: the primitives that the driver does not have, each with
+/// the first step that calls it.
+#[must_use]
+pub fn refused(missing: &[MissingPrimitive], text: &PolicyText) -> String {
+    let item = |one: &MissingPrimitive| {
+        let mut item = Map::new();
+        item.insert("primitive".to_owned(), json!(one.name.as_str()));
+        item.insert("path".to_owned(), json!(one.path.as_str()));
+        item.extend(text.line(&one.path).map(|line| ("line".to_owned(), json!(line))));
+        item
+    };
+    let items: Vec<_> = missing.iter().map(item).collect();
+    json!({"event": "refused", "missing": items}).to_string()
 }
 
 /// Need of a call, by its number.

@@ -53,7 +53,7 @@ pub struct RunPlan<'a> {
 ///
 /// # Errors
 ///
-/// [`Error::Graph`], never for a graph of the session; [`Error::Journal`].
+/// [`Error::Graph`], never for a graph of the session; [`Error::Lacking`]; [`Error::Journal`].
 pub fn recorded(
     plan: &RunPlan<'_>,
     driver: &mut dyn Driver,

@@ -7,12 +7,13 @@ use crate::perception::{Detection, RgbdView};
 use crate::query::Query;
 use crate::telemetry::{Heard, Moved, ToldThing};
 use crate::time::Time;
-use motet_graph::Graph;
+use motet_graph::{Graph, NodeKind};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
+use std::fmt;
 use std::rc::Rc;
 
 /// Interface to a robot or a simulator. The run loop ([`crate::run`]) passes it the engine's effects and
@@ -46,6 +47,7 @@ use std::rc::Rc;
 ///    again.
 /// 10. It never reports from within a call: everything goes out through [`Driver::advance`]. Telemetry,
 ///     detections and words are fetched after it.
+/// 11. It refuses a start of a primitive that [`Driver::capabilities`] says it does not have.
 pub trait Driver {
     /// Starts a primitive.
     fn start(&mut self, now: Time, goal: GoalId, command: &Command);
@@ -253,6 +255,10 @@ impl<D: Driver> Driver for Rc<RefCell<D>> {
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(default)]
 pub struct Capabilities {
+    /// Primitives that it has. A policy that calls another one is refused before anything moves, and does not
+    /// take over either.
+    #[serde(skip_serializing_if = "PrimitiveSet::is_all")]
+    pub primitives: PrimitiveSet,
     /// Primitives whose goals it can hold and let go on. Others are cancelled by a pause and start again
     /// after it.
     pub hold: PrimitiveSet,
@@ -303,9 +309,11 @@ impl DriverClock {
 }
 
 impl Default for Capabilities {
-    /// Everything can be held, or is said not to be by [`DriverEvent::NotHeld`]; nothing can be updated.
+    /// It has every primitive. Everything can be held, or is said not to be by [`DriverEvent::NotHeld`];
+    /// nothing can be updated.
     fn default() -> Self {
         Self {
+            primitives: PrimitiveSet::All,
             hold: PrimitiveSet::All,
             update: PrimitiveSet::Only(BTreeSet::new()),
             clock: DriverClock::Wall,
@@ -315,6 +323,45 @@ impl Default for Capabilities {
             told: false,
             state: false,
         }
+    }
+}
+
+impl Capabilities {
+    /// Primitives that a graph calls and the driver does not have, in the order of their first calls. O(graph).
+    #[must_use]
+    pub fn missing(&self, graph: &Graph) -> Vec<MissingPrimitive> {
+        let mut missing: Vec<MissingPrimitive> = Vec::new();
+        for node in &graph.nodes {
+            let NodeKind::Call(call) = &node.kind else { continue };
+            let Some(primitive) = graph.primitives.get(call.primitive.index()) else { continue };
+            let name = &primitive.name;
+            if !self.primitives.contains(name) && missing.iter().all(|one| one.name != *name) {
+                missing.push(MissingPrimitive { name: name.clone(), path: node.path.clone() });
+            }
+        }
+        missing
+    }
+}
+
+/// Primitive that a policy calls and the driver does not have.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct MissingPrimitive {
+    pub name: SmolStr,
+    /// Path of the first step that calls it, as a JSON Pointer.
+    pub path: SmolStr,
+}
+
+impl MissingPrimitive {
+    /// Some of them in words: "`wake_up` (at /steps/0), `say` (at /steps/3)".
+    #[must_use]
+    pub fn list(missing: &[Self]) -> String {
+        missing.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+    }
+}
+
+impl fmt::Display for MissingPrimitive {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "`{}` (at {})", self.name, self.path)
     }
 }
 
@@ -328,6 +375,22 @@ pub enum PrimitiveSet {
 }
 
 impl PrimitiveSet {
+    /// These and those of some names.
+    #[must_use]
+    pub fn with<'a>(self, more: impl IntoIterator<Item = &'a str>) -> Self {
+        match self {
+            Self::All => Self::All,
+            Self::Only(mut names) => {
+                names.extend(more.into_iter().map(SmolStr::from));
+                Self::Only(names)
+            }
+        }
+    }
+
+    fn is_all(&self) -> bool {
+        *self == Self::All
+    }
+
     /// True if a primitive is among them.
     #[must_use]
     pub fn contains(&self, primitive: &str) -> bool {

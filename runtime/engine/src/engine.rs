@@ -26,7 +26,7 @@ pub struct Engine {
     /// Graphs that were replaced, with their numbers.
     pub(crate) older: Vec<(u32, Arc<PreparedGraph>)>,
     settings: EngineSettings,
-    capabilities: Capabilities,
+    pub(crate) capabilities: Capabilities,
 }
 
 impl Engine {

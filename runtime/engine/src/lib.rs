@@ -27,7 +27,7 @@ mod turn;
 mod verifier;
 
 pub use cleanup::PendingCleanup;
-pub use driver::{Capabilities, Driver, DriverClock, PrimitiveSet};
+pub use driver::{Capabilities, Driver, DriverClock, MissingPrimitive, PrimitiveSet};
 pub use effect::{Command, DeferredMotion, Effect, Fault, MotionVerdict, PlannedMotion, RunEnd};
 pub use engine::Engine;
 pub use event::{DriverEvent, Event, FailureReport, Outcome, Verification};

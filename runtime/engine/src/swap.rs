@@ -6,6 +6,7 @@
 //! refused swap changes nothing at all.
 
 use crate::belief::{Beliefs, Entities, FactStanding, covers};
+use crate::driver::{Capabilities, MissingPrimitive};
 use crate::effect::Effect;
 use crate::engine::Engine;
 use crate::prepared_graph::PreparedGraph;
@@ -74,6 +75,8 @@ pub enum SwapRefusal {
         told: bool,
         believed: Truth,
     },
+    /// It calls primitives that the driver does not have.
+    Primitives(Vec<MissingPrimitive>),
     /// It needs a name that the run has not bound, or not with that type.
     Binding { name: SmolStr },
     /// The run is over, or a person stops it.
@@ -153,13 +156,17 @@ impl PreparedSwap {
     }
 
     /// Checks the swap against the state of the run.
-    fn check(&self, run: &Run, running: &Graph) -> Result<(), SwapRefusal> {
+    fn check(&self, run: &Run, running: &Graph, can: &Capabilities) -> Result<(), SwapRefusal> {
         if run.over || run.is_stopped() {
             return Err(SwapRefusal::Over);
         }
         let graph = &self.plan.graph;
         if graph.robot != running.robot {
             return Err(SwapRefusal::Robot { running: running.robot.clone(), wanted: graph.robot.clone() });
+        }
+        let missing = can.missing(graph);
+        if !missing.is_empty() {
+            return Err(SwapRefusal::Primitives(missing));
         }
         for told in &self.told {
             let standing =
@@ -214,7 +221,7 @@ impl Engine {
             prepared.against = self.plan.clone();
             prepared.map();
         }
-        prepared.check(&self.run, &self.plan.graph)?;
+        prepared.check(&self.run, &self.plan.graph, &self.capabilities)?;
         self.run.now = self.run.now.max(now);
         let plan = self.plan.clone();
         let bindings = self.turn(out).retire(&plan);
@@ -335,6 +342,9 @@ impl fmt::Display for SwapRefusal {
             Self::Robot { running, wanted } => write!(f, "it is for `{wanted}`, and `{running}` runs"),
             Self::Start { fact, told, believed } => {
                 write!(f, "it was proved from `{fact}` being {told}, which is {believed}")
+            }
+            Self::Primitives(missing) => {
+                write!(f, "the driver does not have {}", MissingPrimitive::list(missing))
             }
             Self::Binding { name } => write!(f, "it needs `{name}`, which is not bound"),
             Self::Over => f.write_str("the run is over"),

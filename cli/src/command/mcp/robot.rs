@@ -24,7 +24,7 @@ use super::situation::{Situation, Situations, StderrSink};
 use super::watch::RunWatch;
 use crate::error::CliError;
 use crate::flags::{DriverArgs, EnvironmentArgs, Speed};
-use crate::questions::QuestionDriver;
+use crate::questions::{QuestionDriver, answering};
 use crate::ready_driver::{ReadyDriver, RunSubject, open_driver};
 
 /// Interval at which the driver is looked after between runs.
@@ -129,7 +129,7 @@ impl Robot<'_, '_> {
         let checked = self.check(session.clone(), run, policy, &reply);
         let guard = session.world_tracker().map(|course| Guard::new(course, self.speed.verifies()));
         let scene = self.talk.scene();
-        let capabilities = self.driver.capabilities();
+        let capabilities = answering(self.driver.capabilities());
         let prepared = checked.and_then(|(graph, found)| {
             let engine = self.talk.engine(graph, &scene, capabilities, guard.is_some());
             let (engine, start) = engine.map_err(|problem| Refusal::new(problem.question))?;

@@ -8,6 +8,7 @@ use crate::event::{DriverEvent, Outcome};
 use crate::ids::GoalId;
 use crate::query::Query;
 use crate::time::Time;
+use smol_str::SmolStr;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
 
@@ -49,7 +50,7 @@ pub fn check_scenes(
     told: &mut dyn FnMut(&'static str, &BTreeSet<LawViolation>) -> ControlFlow<()>,
 ) {
     type Scene = fn(&mut DriverBench, &ConformanceSubject<'_>);
-    let scenes: [(&str, Scene); 11] = [
+    let scenes: [(&str, Scene); 12] = [
         ("to the end", to_the_end),
         ("cancelled", cancelled),
         ("stopped safely", stopped),
@@ -58,6 +59,7 @@ pub fn check_scenes(
         ("cancelled while held", cancelled_while_held),
         ("stopped safely while held", stopped_while_held),
         ("updated", updated),
+        ("a primitive that it lacks", lacking),
         ("observed", observed),
         ("watched", watched),
         ("begun again", begun_again),
@@ -185,6 +187,20 @@ fn updated(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) {
         }
     }
     bench.until(subject.moment, |_| false);
+}
+
+/// Of a primitive that it does not have, a start is refused.
+fn lacking(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) {
+    let primitive = SmolStr::new_static("conformance_lacks_this");
+    if bench.driver.capabilities().primitives.contains(&primitive) {
+        return;
+    }
+    let goal = bench.start(&Command { primitive, ..subject.command.clone() });
+    match bench.until(subject.patience, |event| matters(event, goal)) {
+        Some(DriverEvent::Refused { .. }) => {}
+        Some(other) => bench.breach(Law::Lacking, format!("`{other}` after its start")),
+        None => bench.breach(Law::Lacking, format!("goal {goal} is not after {}", subject.patience)),
+    }
 }
 
 /// Observed, it is answered once.

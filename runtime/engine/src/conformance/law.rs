@@ -22,6 +22,8 @@ pub enum Law {
     Held,
     /// An updated goal goes on under its number, and ends by itself.
     Updated,
+    /// A start of a primitive that the driver says it does not have is refused.
+    Lacking,
     /// An observation is answered once.
     Observed,
     /// A watch is answered at once, and watching twice is watching once.
@@ -54,6 +56,7 @@ impl Law {
             Self::SafeStop => "a safe stop is always answered",
             Self::Held => "a held goal keeps still until it is told to go on",
             Self::Updated => "an updated goal goes on under its number, and ends by itself",
+            Self::Lacking => "a primitive that the driver does not have is refused",
             Self::Observed => "an observation is answered once",
             Self::Watched => "a watch is answered at once, and watching twice is watching once",
             Self::Anew => "a new run has no goal of the run before",

@@ -7,7 +7,8 @@ use crate::script::{distance, entity, holding};
 use motet_graph::arbitrary::{CallSketch, ReactionSketch, StepSketch, WatchSketch, graph, vocabulary as v};
 use motet_graph::{Condition, Fact, FactArg, Graph, InitialFact, Manner, NodeId, Value};
 use motet_runtime::{
-    DriverEvent, Effect, Engine, Event, Outcome, PreparedSwap, RunEnd, StartState, SwapRefusal, Time, Truth,
+    Capabilities, DriverEvent, Effect, Engine, Event, Outcome, PreparedSwap, PrimitiveSet, RunEnd,
+    StartState, SwapRefusal, Time, Truth,
 };
 
 fn pauses(within: f64, steps: Vec<StepSketch>) -> StepSketch {
@@ -255,7 +256,14 @@ fn going() -> (Engine, Vec<Effect>) {
 /// Refused, and nothing has changed: neither what went out nor anything within.
 #[track_caller]
 fn refused(graph: Graph) -> SwapRefusal {
-    let (mut engine, mut out) = going();
+    refused_by(graph, Capabilities::default())
+}
+
+/// The same in front of a driver with these capabilities.
+#[track_caller]
+fn refused_by(graph: Graph, can: Capabilities) -> SwapRefusal {
+    let (engine, mut out) = going();
+    let mut engine = engine.with_capabilities(can);
     let prepared = match PreparedSwap::new(graph, &engine.running()) {
         Ok(prepared) => prepared,
         Err(refusal) => return refusal,
@@ -279,6 +287,18 @@ fn swap_another_robot_is_refused() {
     let mut graph = graph(&[StepSketch::go("table")]);
     graph.robot = "another".into();
     assert_eq!(refused(graph), SwapRefusal::Robot { running: "mock".into(), wanted: "another".into() });
+}
+
+#[test]
+fn swap_primitive_that_the_driver_lacks_is_refused() {
+    let only = |names: &[&str]| PrimitiveSet::Only(names.iter().map(|name| (*name).into()).collect());
+    let can = |names: &[&str]| Capabilities { primitives: only(names), ..Capabilities::default() };
+    let steps =
+        [StepSketch::go("table"), StepSketch::say("a"), StepSketch::detect("mug"), StepSketch::say("b")];
+    let refusal = refused_by(graph(&steps), can(&["go"]));
+    assert_eq!(refusal.to_string(), "the driver does not have `say` (at /steps/1), `detect` (at /steps/2)");
+    assert_eq!(can(&["go", "say", "detect"]).missing(&graph(&steps)), []);
+    assert_eq!(Capabilities::default().missing(&graph(&steps)), []);
 }
 
 #[test]

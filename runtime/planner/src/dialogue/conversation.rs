@@ -226,7 +226,7 @@ impl<'a> Conversation<'a> {
     ///
     /// # Errors
     ///
-    /// The graph is not valid; one of the compiler always is.
+    /// The graph is not valid; one of the compiler always is. Or the driver does not have its primitives.
     pub fn engine(
         &self,
         graph: Graph,
@@ -237,6 +237,10 @@ impl<'a> Conversation<'a> {
         let session = self.session(scene, &self.known, None);
         let settings = EngineSettings { verify_within: verifies.then_some(WITHIN), ..self.settings };
         let start = self.known.start(scene, &session);
+        let missing = can.missing(&graph);
+        if !missing.is_empty() {
+            return Err(Problem::lacking(&missing));
+        }
         let engine = Engine::new(graph, &start);
         let ready = |engine: Engine| (engine.with_settings(settings).with_capabilities(can), start);
         engine.map(ready).map_err(|wrong| Problem {

@@ -3,7 +3,7 @@
 
 use motet_graph::{Graph, NodeKind, Term, Value};
 use motet_robots::scene::Scene;
-use motet_runtime::RunEnd;
+use motet_runtime::{MissingPrimitive, RunEnd};
 use motet_stdlib::lang::{ASKING, failures, kinds, primitives};
 use motet_syntax::render::capital;
 use smol_str::SmolStr;
@@ -110,6 +110,13 @@ impl Problem {
             PlanError::NoPlan(why) => Self::unplanned(reason::no_plan(why, scene)),
             PlanError::Refused { diagnostics, .. } => Self::unplanned(reason::refused(diagnostics, scene)),
         }
+    }
+
+    /// Problem of a policy that calls primitives that the driver does not have.
+    pub(super) fn lacking(missing: &[MissingPrimitive]) -> Self {
+        let names: Vec<String> = missing.iter().map(|one| format!("`{}`", one.name)).collect();
+        let says = format!("the driver of the robot does not have {}", join(&names));
+        Self::unplanned(Reason { about: None, says })
     }
 
     /// Problem of a request that no plan carries out, for a reason.

@@ -275,7 +275,8 @@ impl Driver for GroundingDriver<'_> {
     }
 
     fn capabilities(&self) -> Capabilities {
-        self.driver.capabilities()
+        let can = self.driver.capabilities();
+        Capabilities { primitives: can.primitives.with([GROUND]), ..can }
     }
 
     fn base(&self) -> Option<[f64; 3]> {
