@@ -1,10 +1,13 @@
 //! `motet ros2 tasks`: an action server that runs policies, for ROS 2 nodes that ask Motet.
 
+mod answers;
+
 use crate::action::{Uuid, uuid};
-use crate::cdr::{Message, encode};
+use crate::cdr::{Message, decode, encode};
 use crate::dds::{Dds, Quality, Received, Source, Writer, dds_topic, dds_type};
 use crate::layout::{Distribution, Layouts};
 use crate::service::{Asked, Interface, Middleware, Server};
+use answers::{Answer, OpenQuestion, Page};
 use crossbeam_channel::{Receiver, Sender, bounded, select, tick};
 use serde_json::{Value, json};
 use std::io::{BufRead, BufReader, Read};
@@ -24,6 +27,9 @@ const WAITING: usize = 4_096;
 const KEPT: usize = 100;
 const KEEPS: Duration = Duration::from_secs(900);
 
+/// Number of the subscription of answers.
+const ANSWERS: Source = 3;
+
 /// Codes of `action_msgs/GoalStatus`.
 const EXECUTING: i8 = 2;
 const CANCELING: i8 = 3;
@@ -42,9 +48,12 @@ pub(crate) struct TasksArgs {
     /// Driver of the runs, as in `motet run`
     #[arg(long, value_name = "DRIVER", default_value = "kinematic")]
     driver: String,
-    /// Name of the action; its topics of state and questions stand beside it
+    /// Name of the action; its topics of state, questions and answers stand beside it
     #[arg(long, value_name = "NAME", default_value = "/motet/run_policy")]
     action: String,
+    /// Let nodes answer the questions of policies on the topic `answers`, instead of the driver
+    #[arg(long)]
+    answers: bool,
     /// Distribution of ROS 2
     #[arg(long, default_value = "jazzy", value_name = "NAME")]
     distribution: Distribution,
@@ -70,6 +79,10 @@ fn middleware(text: &str) -> Result<Middleware, String> {
 /// What a run said.
 enum Said {
     Event(Uuid, String),
+    /// Page at which it takes answers.
+    Page(Uuid, Page),
+    /// What became of an answer to a question.
+    Answered(String, Result<(), String>),
     Ended(Uuid, i32, String),
 }
 
@@ -79,6 +92,8 @@ struct Goal {
     result: Value,
     asked: Vec<Asked>,
     child: Option<u32>,
+    page: Option<Page>,
+    question: Option<OpenQuestion>,
     at: Instant,
 }
 
@@ -132,6 +147,14 @@ impl<'a> Tasks<'a> {
             dds.publish(&dds_topic("rt", topic, ""), type_name, quality)
         };
         let part = |end: &str| format!("{}/_action/{end}", args.action);
+        if args.answers {
+            dds.subscribe(
+                &dds_topic("rt", &format!("{beside}/answers"), ""),
+                &text,
+                Quality::Reliable,
+                ANSWERS,
+            )?;
+        }
         let feedback = dds_type(TYPE, "action", "_FeedbackMessage");
         let states = dds_type("action_msgs/GoalStatusArray", "msg", "");
         Ok(Self {
@@ -190,6 +213,10 @@ impl<'a> Tasks<'a> {
                 }
                 self.answer_results();
             }
+            ANSWERS => {
+                let text = decode(&self.layouts, "std_msgs/String", &message.bytes)?;
+                self.answer(text.text("data"));
+            }
             _ => {
                 let (asked, request) = self.cancel.hear(&self.layouts, message)?;
                 let id = uuid(&request, "goal_info.goal_id");
@@ -210,6 +237,30 @@ impl<'a> Tasks<'a> {
         Ok(())
     }
 
+    /// Passes an answer on to the run that asks. The first one counts.
+    fn answer(&mut self, text: &str) {
+        let (question, refused) = match Answer::read(text) {
+            Err(why) => (String::new(), why),
+            Ok(answer) => {
+                let asks =
+                    |goal: &&mut Goal| goal.question.as_ref().is_some_and(|open| open.id == answer.question);
+                let goal = self.goals.iter_mut().find(asks);
+                let open = goal.and_then(|goal| Some((goal.page.clone()?, goal.question.take()?)));
+                if let Some((page, open)) = open {
+                    let said = self.said.clone();
+                    // The page may take its time.
+                    std::thread::spawn(move || {
+                        let done = page.answer(&open, &answer);
+                        let _ = said.send(Said::Answered(open.id, done));
+                    });
+                    return;
+                }
+                (answer.question, "no such question is open".to_owned())
+            }
+        };
+        self.take(Said::Answered(question, Err(refused)));
+    }
+
     /// Starts the run of a policy. One runs at a time.
     fn begin(&mut self, request: &Message) -> Result<(), String> {
         let id = uuid(request, "goal_id").ok_or("the goal has no id")?;
@@ -224,13 +275,15 @@ impl<'a> Tasks<'a> {
             return Err(format!("it has more than {MAX_POLICY} bytes"));
         }
         let end = if policy.trim_start().starts_with('{') { "json" } else { "motet" };
-        let digits: String = id.iter().map(|byte| format!("{byte:02x}")).collect();
+        let digits = hexadecimal(id);
         let file = std::env::temp_dir().join(format!("motet-task-{digits}.{end}"));
         std::fs::write(&file, policy).map_err(|error| format!("{}: {error}", file.display()))?;
         let program =
             self.args.motet.clone().or_else(|| crate::on_path("motet")).ok_or("`motet` is not in PATH")?;
+        let page = self.args.answers.then_some("--view");
         let child = Command::new(program)
             .arg("run")
+            .args(page)
             .arg(&file)
             .args(["--robot", &self.args.robot, "--scene", &self.args.scene, "--driver", &self.args.driver])
             .args(["--format", "json"])
@@ -247,6 +300,8 @@ impl<'a> Tasks<'a> {
             result: Value::Null,
             asked: Vec::new(),
             child: Some(number),
+            page: None,
+            question: None,
             at: Instant::now(),
         });
         if self.goals.len() > KEPT {
@@ -258,15 +313,21 @@ impl<'a> Tasks<'a> {
     fn take(&mut self, said: Said) {
         match said {
             Said::Event(id, event) => {
-                if let Ok(line) = serde_json::from_str::<Value>(&event)
-                    && line.get("event").and_then(Value::as_str) == Some("command")
-                    && let Some(question) = line.pointer("/args/question").and_then(Value::as_str)
-                {
-                    self.publish(&self.questions, "std_msgs/String", &json!({"data": question}));
+                if let Ok(line) = serde_json::from_str::<Value>(&event) {
+                    self.take_question(id, &line);
                 }
                 self.publish(&self.state, "std_msgs/String", &json!({"data": event}));
                 let message = json!({"goal_id": {"uuid": id}, "feedback": {"event": event}});
                 self.publish(&self.feedback, &format!("{TYPE}_FeedbackMessage"), &message);
+            }
+            Said::Page(id, page) => {
+                let goal = self.goals.iter_mut().find(|goal| goal.id == id);
+                goal.into_iter().for_each(|goal| goal.page = Some(page.clone()));
+            }
+            Said::Answered(question, done) => {
+                let event = json!({"event": "answer", "question": question, "taken": done.is_ok(),
+                    "why": done.err()});
+                self.publish(&self.state, "std_msgs/String", &json!({"data": event.to_string()}));
             }
             Said::Ended(id, code, text) => {
                 if let Some(goal) = self.goals.iter_mut().find(|goal| goal.id == id) {
@@ -283,6 +344,17 @@ impl<'a> Tasks<'a> {
                 self.answer_results();
             }
         }
+    }
+
+    /// Tells nodes of a question, and keeps it as long as it is open.
+    fn take_question(&mut self, id: Uuid, event: &Value) {
+        let digits = hexadecimal(id);
+        let Some(goal) = self.goals.iter_mut().find(|goal| goal.id == id) else { return };
+        goal.question.take_if(|open| open.is_over(event));
+        let Some(open) = OpenQuestion::of_event(event, &digits) else { return };
+        let message = json!({"data": open.message().to_string()});
+        goal.question = Some(open);
+        self.publish(&self.questions, "std_msgs/String", &message);
     }
 
     /// Answers those who asked for the result of a goal that has ended.
@@ -314,10 +386,19 @@ impl<'a> Tasks<'a> {
 /// Reads what a run prints until it ends.
 fn follow(mut child: Child, id: Uuid, file: &std::path::Path, said: &Sender<Said>) {
     let errors = child.stderr.take().map(|stderr| {
+        let said = said.clone();
         std::thread::spawn(move || {
-            let mut text = Vec::new();
-            let mut stderr = stderr;
-            let _ = stderr.by_ref().take(64 * 1024).read_to_end(&mut text);
+            let (mut text, mut stderr) = (Vec::new(), BufReader::new(stderr));
+            let mut first = stderr.by_ref().take(64 * 1024);
+            let mut line = Vec::new();
+            while first.read_until(b'\n', &mut line).is_ok_and(|read| read > 0) {
+                match Page::of_line(&String::from_utf8_lossy(&line)) {
+                    // Its token is for nobody else.
+                    Some(page) => drop(said.send(Said::Page(id, page))),
+                    None => text.extend_from_slice(&line),
+                }
+                line.clear();
+            }
             // The rest is read, so that the run does not wait for a reader.
             let _ = std::io::copy(&mut stderr, &mut std::io::sink());
             text
@@ -334,6 +415,10 @@ fn follow(mut child: Child, id: Uuid, file: &std::path::Path, said: &Sender<Said
     let code = child.wait().ok().and_then(|status| status.code()).unwrap_or(130);
     let _ = std::fs::remove_file(file);
     let _ = said.send(Said::Ended(id, code, text));
+}
+
+fn hexadecimal(id: Uuid) -> String {
+    id.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// Asks a run to stop, as Ctrl-C does.
