@@ -230,11 +230,17 @@ impl Unit {
         value * numerator / denominator
     }
 
+    /// A value in SI units as a number of this unit.
+    #[must_use]
+    pub fn from_si(self, si: f64) -> f64 {
+        let (_, _, numerator, denominator) = self.row();
+        si * denominator / numerator
+    }
+
     /// A value in SI units as a number of this unit, to nine digits: `720 deg`.
     #[must_use]
     pub fn show(self, si: f64) -> String {
-        let (symbol, _, numerator, denominator) = self.row();
-        let value = si * denominator / numerator;
+        let (symbol, value) = (self.symbol(), self.from_si(si));
         let digits = if value == 0.0 { 0.0 } else { 8.0 - value.abs().log10().floor() };
         let scale = 10_f64.powf(digits.clamp(0.0, 12.0));
         format!("{} {symbol}", (value * scale).round() / scale)

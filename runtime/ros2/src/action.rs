@@ -4,7 +4,7 @@
 //! may carry out a goal although its response was lost.
 
 use crate::cdr::{Message, decode};
-use crate::dds::{Dds, Quality, Received, Source, dds_topic, dds_type};
+use crate::dds::{Dds, OwnEndpoint, Quality, Received, Source, dds_topic, dds_type};
 use crate::layout::Layouts;
 use crate::service::{Client, Interface, Middleware, Ticket};
 use serde_json::{Value, json};
@@ -157,6 +157,19 @@ impl ActionClient {
         for goal in &mut self.goals {
             (goal.ticket, goal.asked) = (None, None);
         }
+    }
+
+    /// Endpoints of the client: of its three services, and of the topics of feedback and states.
+    pub(crate) fn endpoints(&self) -> Vec<OwnEndpoint> {
+        let services = [&self.send, &self.cancel, &self.result].into_iter().flat_map(Client::endpoints);
+        let feedback = dds_topic("rt", &self.name, "/_action/feedback");
+        let feedback_type = dds_type(&self.type_name, "action", "_FeedbackMessage");
+        let state_type = dds_type("action_msgs/GoalStatusArray", "msg", "");
+        let topics = [
+            OwnEndpoint::new(&feedback, &feedback_type, Quality::Reliable, false),
+            OwnEndpoint::new(&self.status_topic(), &state_type, Quality::Latched, false),
+        ];
+        services.chain(topics).collect()
     }
 
     /// Topic on which the server tells the states of its goals.

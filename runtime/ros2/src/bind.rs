@@ -1,23 +1,24 @@
 //! The binding of a robot: a TOML file that says which actions, services and topics carry out its primitives.
 
+mod lines;
 mod step;
 
 pub(crate) use step::{Call, CallKind, Deed, Direction, Opening, Primitive, Step};
 
 use crate::group::MoveGroup;
-use crate::layout::Distribution;
+use crate::layout::{Distribution, Layouts};
 use crate::service::Middleware;
 use serde::Deserialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::net::IpAddr;
-use std::path::Path;
+use std::path::{Component, Path, PathBuf};
 
 /// Greatest size of a binding in bytes.
 const MAX_BYTES: u64 = 1024 * 1024;
 
 /// Bindings that come with the program: name and text.
-const BUILT_IN: [(&str, &str); 4] = [
+pub(crate) const BUILT_IN: [(&str, &str); 4] = [
     ("hsr", include_str!("../bindings/hsr.toml")),
     ("nav2_arm", include_str!("../bindings/nav2_arm.toml")),
     ("anymal_z1", include_str!("../bindings/anymal_z1.toml")),
@@ -63,6 +64,12 @@ pub(crate) struct Binding {
     /// Services and topics that stop the robot at a safe stop, beside the trajectories that stand still.
     #[serde(default)]
     pub(crate) stop: Vec<Call>,
+    /// Lines of the steps of each primitive in the file.
+    #[serde(skip)]
+    pub(crate) lines: BTreeMap<String, Vec<usize>>,
+    /// Folder of the file; none of a built-in binding.
+    #[serde(skip)]
+    folder: Option<PathBuf>,
 }
 
 /// How the robot's nodes are reached.
@@ -79,6 +86,8 @@ pub(crate) struct Ros {
     pub(crate) namespace: String,
     /// Seconds to wait for the robot's nodes at the start.
     pub(crate) discovery_secs: Option<f64>,
+    /// Folder with further layouts, below that of the binding.
+    pub(crate) layouts: Option<PathBuf>,
 }
 
 /// Names of frames.
@@ -91,11 +100,20 @@ pub(crate) struct FrameNames {
     pub(crate) base: String,
     /// Greatest age of a transform in s.
     pub(crate) age_secs: f64,
+    /// Topics of the transforms. Robots share them, so the namespace counts only without `/`.
+    pub(crate) tf: String,
+    pub(crate) tf_static: String,
 }
 
 impl Default for FrameNames {
     fn default() -> Self {
-        Self { map: "map".to_owned(), base: "base_footprint".to_owned(), age_secs: 0.5 }
+        Self {
+            map: "map".to_owned(),
+            base: "base_footprint".to_owned(),
+            age_secs: 0.5,
+            tf: "/tf".to_owned(),
+            tf_static: "/tf_static".to_owned(),
+        }
     }
 }
 
@@ -313,7 +331,34 @@ impl Binding {
             return Err(format!("the binding `{name}` has more than {MAX_BYTES} bytes"));
         }
         let text = std::fs::read_to_string(path).map_err(|error| format!("cannot read `{name}`: {error}"))?;
-        Self::parse(&text, name)
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        Ok(Self { folder: Some(folder.to_owned()), ..Self::parse(&text, name)? })
+    }
+
+    /// Layouts of its distribution, with those of the folder that it names, and of another folder.
+    ///
+    /// # Errors
+    ///
+    /// The folder is none below that of the binding, or what is wrong in a layout.
+    pub(crate) fn layouts(&self, more: Option<&Path>) -> Result<Layouts, String> {
+        let mut layouts = Layouts::of(self.ros.distribution, self.layouts_folder()?.as_deref())?;
+        more.map_or(Ok(()), |folder| layouts.add(folder))?;
+        Ok(layouts)
+    }
+
+    /// Folder of layouts that the binding names. Who shares a binding shares its layouts with it: it reads
+    /// nothing else of the machine.
+    fn layouts_folder(&self) -> Result<Option<PathBuf>, String> {
+        let Some(own) = &self.ros.layouts else { return Ok(None) };
+        let named = own.display();
+        let above = self.folder.as_ref().ok_or("a built-in binding has no folder of layouts")?;
+        let is_below = own.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
+        let real = |path: &Path| path.canonicalize().map_err(|error| format!("`layouts = {named}`: {error}"));
+        let folder = real(&above.join(own))?;
+        if !is_below || !folder.starts_with(real(above)?) {
+            return Err(format!("`layouts = {named}` is no folder below that of the binding"));
+        }
+        Ok(Some(folder))
     }
 
     /// Reads the text of a binding.
@@ -360,6 +405,7 @@ impl Binding {
             return Err(format!("{name}: the grasps of [move_group] need a `link`"));
         }
         binding.resolve_names();
+        binding.lines = lines::of_steps(text);
         Ok(binding)
     }
 
@@ -373,6 +419,8 @@ impl Binding {
             }
         };
         full(&mut self.joints.topic);
+        full(&mut self.frames.tf);
+        full(&mut self.frames.tf_static);
         self.base.odometry.iter_mut().for_each(full);
         self.base.localization.iter_mut().for_each(full);
         self.controllers.iter_mut().for_each(|one| full(&mut one.action));
@@ -492,5 +540,48 @@ mod tests {
         let binding = Binding::parse(text, "own").unwrap();
         assert_eq!(binding.joints.topic, "/robot_1/joint_states");
         assert_eq!(binding.base.odometry.as_deref(), Some("/odom"));
+    }
+
+    #[test]
+    fn transforms_have_the_topics_of_the_binding() {
+        let text = "ros = { namespace = \"r1\" }\njoints = { topic = \"joint_states\" }\n\
+                    frames = { tf = \"tf\" }";
+        let frames = Binding::parse(text, "own").unwrap().frames;
+        assert_eq!((frames.tf.as_str(), frames.tf_static.as_str()), ("/r1/tf", "/tf_static"));
+    }
+
+    #[test]
+    fn layouts_are_in_a_folder_below_that_of_the_binding() {
+        let root = std::env::temp_dir().join(format!("motet-ros2-layouts-{}", std::process::id()));
+        std::fs::create_dir_all(root.join("own/layouts")).unwrap();
+        std::fs::create_dir_all(root.join("other")).unwrap();
+        let layout = "MSG my_msgs/Grip\nfloat64 force\n";
+        std::fs::write(root.join("own/layouts/my.layouts"), layout).unwrap();
+        std::os::unix::fs::symlink(root.join("other"), root.join("own/link")).unwrap();
+        let file = root.join("own/robot.toml");
+        let layouts = |folder: &str| {
+            let text = format!("ros = {{ layouts = \"{folder}\" }}\njoints = {{ topic = \"joint_states\" }}");
+            std::fs::write(&file, text).unwrap();
+            Binding::read(file.to_str().unwrap()).unwrap().layouts(None)
+        };
+        assert!(layouts("layouts").unwrap().message("my_msgs/Grip").is_some());
+        let other = root.join("other");
+        for outside in ["../other", "link", other.to_str().unwrap()] {
+            let wrong = layouts(outside).unwrap_err();
+            assert!(wrong.ends_with("is no folder below that of the binding"), "{wrong}");
+        }
+        assert!(layouts("none").unwrap_err().starts_with("`layouts = none`: "));
+        std::fs::remove_dir_all(&root).unwrap();
+        let built_in = "ros = { layouts = \"layouts\" }\njoints = { topic = \"joint_states\" }";
+        let wrong = Binding::parse(built_in, "own").unwrap().layouts(None).unwrap_err();
+        assert_eq!(wrong, "a built-in binding has no folder of layouts");
+    }
+
+    #[test]
+    fn steps_know_their_lines() {
+        let text = "joints = { topic = \"j\" }\n[primitives.go]\nsteps = [{ wait_secs = 1.0 }]\n\
+                    [primitives.say]\nsteps = [\n    { wait_secs = 1.0 },\n    { wait_secs = 2.0 },\n]\n";
+        let lines = Binding::parse(text, "own").unwrap().lines;
+        assert_eq!((lines["go"].as_slice(), lines["say"].as_slice()), (&[3][..], &[6, 7][..]));
     }
 }

@@ -53,6 +53,15 @@ pub(crate) enum Quality {
 }
 
 impl Quality {
+    /// True if it is reliable, and if a late reader gets the last message.
+    const fn policy(self) -> [bool; 2] {
+        match self {
+            Self::Reliable => [true, false],
+            Self::Sensor => [false, false],
+            Self::Latched => [true, true],
+        }
+    }
+
     fn policies(self) -> QosPolicies {
         let reliable = Reliability::Reliable { max_blocking_time: rustdds::Duration::from_millis(100) };
         let (reliability, durability, depth) = match self {
@@ -95,6 +104,36 @@ pub(crate) struct Writer(rustdds::no_key::DataWriter<Bytes, Raw>);
 pub(crate) struct Endpoint {
     pub(crate) topic: String,
     pub(crate) type_name: String,
+    /// True if it is reliable, and if it keeps the last message for late readers.
+    pub(crate) reliable: bool,
+    pub(crate) latched: bool,
+}
+
+/// Reader or writer of the driver.
+#[derive(Clone, Debug)]
+pub(crate) struct OwnEndpoint {
+    pub(crate) endpoint: Endpoint,
+    pub(crate) is_writer: bool,
+}
+
+impl OwnEndpoint {
+    /// Endpoint of the driver with names as DDS has them.
+    pub(crate) fn new(topic: &str, type_name: &str, quality: Quality, is_writer: bool) -> Self {
+        let [reliable, latched] = quality.policy();
+        let (topic, type_name) = (topic.to_owned(), type_name.to_owned());
+        Self { endpoint: Endpoint { topic, type_name, reliable, latched }, is_writer }
+    }
+}
+
+impl Endpoint {
+    /// Endpoint that was discovered. Participants leave out what is the default of DDS: writers are reliable,
+    /// readers are not, and nothing is kept.
+    fn of([topic, type_name]: [String; 2], policies: &QosPolicies, is_writer: bool) -> Self {
+        let is_reliable = |kind| matches!(kind, Reliability::Reliable { .. });
+        let reliable = policies.reliability().map_or(is_writer, is_reliable);
+        let latched = policies.durability().is_some_and(|kind| kind >= Durability::TransientLocal);
+        Self { topic, type_name, reliable, latched }
+    }
 }
 
 impl Dds {
@@ -202,9 +241,9 @@ impl Dds {
         let readers = self.participant.discovered_readers().into_iter();
         let others = readers.filter(|reader| reader.reader_proxy.remote_reader_guid.prefix != own);
         let mut readers: Vec<Endpoint> = others
-            .map(|reader| Endpoint {
-                topic: reader.subscription_topic_data.topic_name().clone(),
-                type_name: reader.subscription_topic_data.type_name().clone(),
+            .map(|reader| {
+                let data = reader.subscription_topic_data;
+                Endpoint::of([data.topic_name(), data.type_name()].map(Clone::clone), &data.qos(), false)
             })
             .collect();
         readers.sort();
@@ -218,9 +257,10 @@ impl Dds {
         let writers = self.participant.discovered_writers().into_iter();
         let others = writers.filter(|writer| writer.writer_proxy.remote_writer_guid.prefix != own);
         let mut writers: Vec<Endpoint> = others
-            .map(|writer| Endpoint {
-                topic: writer.publication_topic_data.topic_name,
-                type_name: writer.publication_topic_data.type_name,
+            .map(|writer| {
+                let data = writer.publication_topic_data;
+                let policies = data.qos();
+                Endpoint::of([data.topic_name, data.type_name], &policies, true)
             })
             .collect();
         writers.sort();

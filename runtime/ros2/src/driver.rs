@@ -10,7 +10,7 @@ use crate::task::{Finish, Surroundings, Task};
 use crate::world::World;
 use crossbeam_channel::{Receiver, select, tick};
 use motet_graph::Value as Argument;
-use motet_host::remote::protocol::{Detections, REFUSED};
+use motet_host::remote::protocol::{CalledPrimitive, Detections, REFUSED};
 use motet_host::remote::protocol::{
     DriverCall, DriverReport, EndedParams, FeedbackParams, GoalParams, GoalState, GoalStatus, Hello,
     MovedParams, ObservedParams, QueryResult, RefusedData, StartParams, StatusResult, ToldParams, VERSION,
@@ -55,7 +55,8 @@ pub(crate) struct Driver {
     card: Card,
     out: Output,
     run: Option<String>,
-    fails: HashMap<String, Vec<String>>,
+    /// Primitives of the policy, with what they declare.
+    called: HashMap<String, CalledPrimitive>,
     goals: BTreeMap<u64, Goal>,
     /// Goals up to this one are forgotten.
     forgotten: u64,
@@ -89,7 +90,7 @@ impl Driver {
             card,
             out,
             run: None,
-            fails: HashMap::new(),
+            called: HashMap::new(),
             goals: BTreeMap::new(),
             forgotten: 0,
             former: Vec::new(),
@@ -429,11 +430,13 @@ impl Driver {
         }
         self.run = Some(hello.run.clone());
         self.is_greeted = true;
-        let fails = |fails: &[smol_str::SmolStr]| fails.iter().map(ToString::to_string).collect();
-        self.fails = hello.primitives.iter().map(|one| (one.name.clone(), fails(&one.fails))).collect();
+        self.called = hello.primitives.iter().map(|one| (one.name.clone(), one.clone())).collect();
         let binding = &self.robot.binding;
         let holds = binding.primitives.keys().filter(|name| binding.holds(name));
         let capabilities = Capabilities {
+            primitives: PrimitiveSet::Only(
+                binding.primitives.keys().map(|name| name.as_str().into()).collect(),
+            ),
             hold: PrimitiveSet::Only(holds.map(|name| name.as_str().into()).collect()),
             update: PrimitiveSet::Only(BTreeSet::new()),
             moved: true,
@@ -454,11 +457,13 @@ impl Driver {
         }
         if !self.goals.contains_key(&number) {
             let primitive = start.command.primitive.as_str();
-            let fails = self.fails.get(primitive).cloned().unwrap_or_default();
+            let called = self.called.get(primitive).cloned();
+            let unknown = || CalledPrimitive { name: primitive.to_owned(), result: None, fails: Vec::new() };
+            let called = called.unwrap_or_else(unknown);
             let goal = match self.robot.binding.steps(primitive) {
-                Some(steps) => Goal::Running(Box::new(Task::new(start.command.clone(), steps, fails))),
+                Some(steps) => Goal::Running(Box::new(Task::new(start.command.clone(), steps, called))),
                 None => {
-                    let kind = fails.first().map_or("refused", String::as_str);
+                    let kind = called.fails.first().map_or("refused", smol_str::SmolStr::as_str);
                     let text = format!("the binding has no steps for `{primitive}`");
                     Goal::Refused(FailureReport { kind: kind.into(), text: Some(text.into()) })
                 }

@@ -104,6 +104,31 @@ impl Part {
         Some(phases)
     }
 
+    /// Parts between the legs in which nothing but the hand moves, and closes. `hand` has its joints by their
+    /// places in a waypoint, with their positions when it is open. A leg that closes it is left out.
+    #[must_use]
+    pub(crate) fn between_grips(&self, hand: &[(usize, f64)]) -> Vec<Self> {
+        let mut parts =
+            vec![Self { waypoints: self.waypoints.iter().take(1).cloned().collect(), legs: Vec::new() }];
+        for (pair, leg) in self.waypoints.windows(2).zip(&self.legs) {
+            let is_hand = |at: &usize| hand.iter().any(|(own, _)| own == at);
+            let joints = pair[0].1.iter().zip(&pair[1].1).enumerate();
+            let rests =
+                joints.filter(|(at, _)| !is_hand(at)).all(|(_, (one, other))| !moves(&[*one], &[*other]));
+            let opened = |joints: &[f64]| -> f64 {
+                hand.iter().map(|(at, open)| joints.get(*at).map_or(0.0, |is| (is - open).abs())).sum()
+            };
+            let closes = opened(&pair[1].1) - opened(&pair[0].1) > 1e-6;
+            if closes && rests && !moves(&pair[0].0, &pair[1].0) {
+                parts.push(Self { waypoints: vec![pair[1].clone()], legs: Vec::new() });
+            } else if let Some(part) = parts.last_mut() {
+                part.waypoints.push(pair[1].clone());
+                part.legs.push(*leg);
+            }
+        }
+        parts
+    }
+
     /// True if the base moves.
     #[must_use]
     pub(crate) fn drives(&self) -> bool {
@@ -233,6 +258,21 @@ mod tests {
             limit: None,
             payload: None,
         }
+    }
+
+    #[test]
+    fn part_ends_where_the_hand_alone_closes() {
+        let place = |x: f64, hand: f64| ([x, 0.0, 0.0], vec![0.3, hand]);
+        let waypoints =
+            vec![place(0.0, 0.0), place(0.5, 1.2), place(0.6, 1.2), place(0.6, 0.2), place(0.1, 0.2)];
+        let part = Part { waypoints, legs: vec![[1.0, 0.1], [2.0, 0.2], [3.0, 0.3], [4.0, 0.4]] };
+        let parts = part.between_grips(&[(1, 1.24)]);
+        let legs: Vec<_> = parts.iter().map(|part| part.legs.clone()).collect();
+        assert_eq!(legs, [vec![[1.0, 0.1], [2.0, 0.2]], vec![[4.0, 0.4]]]);
+        assert_eq!(parts[1].waypoints, [place(0.6, 0.2), place(0.1, 0.2)]);
+        // On the way back it opens there, and closes while the base moves.
+        assert_eq!(part.reversed().between_grips(&[(1, 1.24)]).len(), 1);
+        assert_eq!(part.between_grips(&[]), [part]);
     }
 
     /// Positions at a time by cubic splines, as controllers have them.

@@ -11,6 +11,8 @@ use std::sync::Arc;
 
 /// Layouts that most distributions share.
 const COMMON: &str = include_str!("../layouts/common.layouts");
+/// Greatest size of a file of layouts in bytes.
+const MAX_BYTES: u64 = 4 * 1024 * 1024;
 /// Greatest number of types, so that a folder of layouts cannot fill the memory.
 const MAX_TYPES: usize = 10_000;
 
@@ -145,21 +147,30 @@ impl Layouts {
         let mut layouts = Self::default();
         layouts.read(COMMON, "common.layouts")?;
         layouts.read(distribution.own_layouts(), &format!("{distribution}.layouts"))?;
-        let mut files = Vec::new();
-        if let Some(folder) = folder {
-            let entries =
-                std::fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-            files.extend(entries.filter_map(|entry| Some(entry.ok()?.path())));
-            files.retain(|path| path.extension().is_some_and(|end| end == "layouts"));
-            files.sort();
-        }
-        for file in files {
-            let text =
-                std::fs::read_to_string(&file).map_err(|error| format!("{}: {error}", file.display()))?;
-            layouts.read(&text, &file.display().to_string())?;
-        }
+        folder.map_or(Ok(()), |folder| layouts.add(folder))?;
         layouts.check()?;
         Ok(layouts)
+    }
+
+    /// Adds those of every file of a folder, which replace or add some.
+    ///
+    /// # Errors
+    ///
+    /// The place that is wrong, or a type that no layout has.
+    pub(crate) fn add(&mut self, folder: &Path) -> Result<(), String> {
+        let entries = std::fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+        let mut files: Vec<_> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+        files.retain(|path| path.extension().is_some_and(|end| end == "layouts"));
+        files.sort();
+        for file in files {
+            let name = file.display().to_string();
+            let wrong = |error: std::io::Error| format!("{name}: {error}");
+            if std::fs::metadata(&file).map_err(wrong)?.len() > MAX_BYTES {
+                return Err(format!("{name}: has more than {MAX_BYTES} bytes"));
+            }
+            self.read(&std::fs::read_to_string(&file).map_err(wrong)?, &name)?;
+        }
+        self.check()
     }
 
     /// Layout of a message, by its full name.

@@ -121,7 +121,7 @@ fn main() -> ExitCode {
 fn drive(args: DriveArgs) -> Result<u8, String> {
     let binding = Binding::read(&args.binding)?;
     let card = robot_of(&binding, args.robot.as_deref())?;
-    let layouts = Layouts::of(binding.ros.distribution, args.layouts.as_deref())?;
+    let layouts = binding.layouts(args.layouts.as_deref())?;
     let scene = check::read_scene(&args.scene)?;
     let card = check::read_card(&card, args.motet.or_else(|| on_path("motet")))?;
     let robot = robot::Robot::open(binding, layouts)?;

@@ -35,6 +35,8 @@ pub(crate) struct Card {
     pub(crate) limits: Limits,
     /// Positions of joints by their names in the card, by the name of the posture.
     pub(crate) postures: BTreeMap<String, Vec<(String, f64)>>,
+    /// Positions of the joints of open hands, by their names in the card.
+    pub(crate) open_hand: BTreeMap<String, f64>,
     /// Distances that the motions of the robot keep from obstacles.
     pub(crate) clearance: Clearance,
 }

@@ -3,7 +3,7 @@
 use crate::action::{ActionClient, News, SOURCES};
 use crate::bind::{Binding, Call, CallKind, Deed, Observation};
 use crate::cdr::{Message, decode, encode};
-use crate::dds::{Dds, Quality, Received, Source, Writer, dds_topic, dds_type};
+use crate::dds::{Dds, OwnEndpoint, Quality, Received, Source, Writer, dds_topic, dds_type};
 use crate::layout::Layouts;
 use crate::observe::{Expression, Found};
 use crate::perceive::{CameraFeed, Feed, box_detections, detections};
@@ -65,8 +65,8 @@ pub(crate) struct Robot {
     dds: Dds,
     channels: Vec<Channel>,
     service_names: Vec<String>,
-    /// Topics that are read, as DDS names them.
-    heard: Vec<String>,
+    /// Topics that are read and written.
+    topics: Vec<OwnEndpoint>,
     writers: HashMap<String, (Writer, String)>,
     cameras: Vec<CameraFeed>,
     kept: HashMap<String, (Bytes, Instant, String)>,
@@ -108,7 +108,7 @@ impl Robot {
             dds,
             channels: Vec::new(),
             service_names: Vec::new(),
-            heard: Vec::new(),
+            topics: Vec::new(),
             writers: HashMap::new(),
             cameras,
             kept: HashMap::new(),
@@ -138,8 +138,13 @@ impl Robot {
                 self.listen(topic, type_name, quality, Channel::Localization)?;
             }
         }
-        self.listen("/tf", "tf2_msgs/TFMessage", Quality::Reliable, Channel::Frames(false))?;
-        self.listen("/tf_static", "tf2_msgs/TFMessage", Quality::Latched, Channel::Frames(true))?;
+        self.listen(&binding.frames.tf, "tf2_msgs/TFMessage", Quality::Reliable, Channel::Frames(false))?;
+        self.listen(
+            &binding.frames.tf_static,
+            "tf2_msgs/TFMessage",
+            Quality::Latched,
+            Channel::Frames(true),
+        )?;
         for controller in &binding.controllers {
             self.action(&controller.action, "control_msgs/FollowJointTrajectory")?;
         }
@@ -196,7 +201,8 @@ impl Robot {
                     self.keep(&topic, &type_name)?;
                     self.expression(&value)?;
                 }
-                Deed::Motion(_) | Deed::Gripper(_) | Deed::Wait(_) | Deed::Look | Deed::Detect => {}
+                Deed::Motion(_) | Deed::Posture(_) | Deed::Go(_) | Deed::Gripper(_) => {}
+                Deed::Wait(_) | Deed::Look | Deed::Detect | Deed::Search => {}
             }
         }
         for call in &binding.stop {
@@ -224,11 +230,14 @@ impl Robot {
         channel: Channel,
     ) -> Result<(), String> {
         self.known(type_name, "message")?;
-        let (source, name) = (self.next(), dds_topic("rt", topic, ""));
-        self.dds.subscribe(&name, &dds_type(type_name, "msg", ""), quality, source)?;
-        if !self.heard.contains(&name) {
-            self.heard.push(name);
-        }
+        let own =
+            OwnEndpoint::new(&dds_topic("rt", topic, ""), &dds_type(type_name, "msg", ""), quality, false);
+        let source = self.next();
+        self.dds.subscribe(&own.endpoint.topic, &own.endpoint.type_name, quality, source)?;
+        // Of two readers of a topic the later one asks for less: nothing that it hears is missed.
+        let names = |own: &OwnEndpoint| [own.endpoint.topic.clone(), own.endpoint.type_name.clone()];
+        self.topics.retain(|before| names(before) != names(&own));
+        self.topics.push(own);
         self.channels.push(channel);
         Ok(())
     }
@@ -253,7 +262,9 @@ impl Robot {
         match kind {
             Some(kind) if kind == what => Ok(()),
             Some(kind) => Err(format!("`{type_name}` is the layout of a {kind}, not of a {what}")),
-            None => Err(format!("no layout of `{type_name}`; write one into a folder and give --layouts")),
+            None => {
+                Err(format!("no layout of `{type_name}`; write one into a folder that `[ros] layouts` names"))
+            }
         }
     }
 
@@ -289,9 +300,9 @@ impl Robot {
     fn writer(&mut self, topic: &str, type_name: &str) -> Result<(), String> {
         self.known(type_name, "message")?;
         if !self.writers.contains_key(topic) {
-            let quality = Quality::Reliable;
-            let writer =
-                self.dds.publish(&dds_topic("rt", topic, ""), &dds_type(type_name, "msg", ""), quality)?;
+            let (name, dds_name) = (dds_topic("rt", topic, ""), dds_type(type_name, "msg", ""));
+            let writer = self.dds.publish(&name, &dds_name, Quality::Reliable)?;
+            self.topics.push(OwnEndpoint::new(&name, &dds_name, Quality::Reliable, true));
             self.writers.insert(topic.to_owned(), (writer, type_name.to_owned()));
         }
         Ok(())
@@ -321,14 +332,16 @@ impl Robot {
         [self.dds.readers(), self.dds.writers()]
     }
 
-    /// Topics of the binding as DDS names them; `true` for those that the driver writes.
-    #[must_use]
-    pub(crate) fn topics(&self) -> Vec<(String, bool)> {
-        let written = self.writers.keys().map(|topic| (dds_topic("rt", topic, ""), true));
-        let mut topics: Vec<_> =
-            self.heard.iter().map(|topic| (topic.clone(), false)).chain(written).collect();
-        topics.sort();
-        topics
+    /// Endpoints of the binding's actions, services and topics, by their names in ROS.
+    pub(crate) fn endpoints(&self) -> Vec<(String, Vec<OwnEndpoint>)> {
+        let actions = self.actions.iter().map(|action| (action.name.clone(), action.endpoints()));
+        let services = self.service_names.iter().zip(&self.services);
+        let services = services.map(|(name, service)| (name.clone(), service.endpoints().to_vec()));
+        let mut topics = self.topics.clone();
+        topics.sort_by(|one, other| one.endpoint.cmp(&other.endpoint));
+        let name = |own: &OwnEndpoint| own.endpoint.topic.trim_start_matches("rt").to_owned();
+        let topics = topics.into_iter().map(|own| (name(&own), vec![own]));
+        actions.chain(services).chain(topics).collect()
     }
 
     /// Takes in a message. `known` says if an id is an entity of the scene.

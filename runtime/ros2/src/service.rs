@@ -1,7 +1,7 @@
 //! Calls of services over DDS.
 
 use crate::cdr::{Message, decode, encode};
-use crate::dds::{Dds, Quality, Received, Request, Source, Writer, dds_topic, dds_type};
+use crate::dds::{Dds, OwnEndpoint, Quality, Received, Request, Source, Writer, dds_topic, dds_type};
 use crate::layout::Layouts;
 use serde_json::Value;
 
@@ -33,6 +33,7 @@ pub(crate) struct Client {
     middleware: Middleware,
     /// Topics of the request and of the response, as DDS names them.
     pub(crate) topics: [String; 2],
+    types: [String; 2],
     request: String,
     response: String,
     /// Name of this client in the header of Cyclone DDS.
@@ -69,11 +70,18 @@ impl Client {
         let Interface { name, kind, end } = interface;
         let topics = [dds_topic("rq", service, "Request"), dds_topic("rr", service, "Reply")];
         let [request, response] = ["Request", "Response"].map(|part| format!("{end}_{part}"));
-        dds.subscribe(&topics[1], &dds_type(name, kind, &response), Quality::Reliable, source)?;
-        let writer = dds.publish(&topics[0], &dds_type(name, kind, &request), Quality::Reliable)?;
+        let types = [&request, &response].map(|end| dds_type(name, kind, end));
+        dds.subscribe(&topics[1], &types[1], Quality::Reliable, source)?;
+        let writer = dds.publish(&topics[0], &types[0], Quality::Reliable)?;
         let own = getrandom::u64().map_err(|error| format!("no random number: {error}"))?;
         let [request, response] = [request, response].map(|part| format!("{name}{part}"));
-        Ok(Self { writer, middleware, topics, request, response, own, calls: 0, open: Vec::new() })
+        Ok(Self { writer, middleware, topics, types, request, response, own, calls: 0, open: Vec::new() })
+    }
+
+    /// Writer of its requests, and reader of its responses.
+    pub(crate) fn endpoints(&self) -> [OwnEndpoint; 2] {
+        let own = |at: usize| OwnEndpoint::new(&self.topics[at], &self.types[at], Quality::Reliable, at == 0);
+        [own(0), own(1)]
     }
 
     /// Sends a request.

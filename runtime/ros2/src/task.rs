@@ -3,6 +3,7 @@
 mod calls;
 mod move_group;
 mod moving;
+mod searching;
 mod stopping;
 
 pub(crate) use stopping::stand_still;
@@ -19,6 +20,7 @@ use crate::state::Parts;
 use crate::world::World;
 use crossbeam_channel::{Receiver, TryRecvError};
 use motet_graph::{Value as Argument, Witness};
+use motet_host::remote::protocol::CalledPrimitive;
 use motet_runtime::{Command, FailureReport, Outcome};
 use serde_json::Value;
 use std::collections::{BTreeSet, VecDeque};
@@ -27,6 +29,9 @@ use std::time::{Duration, Instant};
 
 /// Time for the robot to stand still once all servers have succeeded.
 const SETTLES: Duration = Duration::from_secs(5);
+
+/// Time for the detector to tell of everything in view, in s.
+const FINDS_ALL_SECS: f64 = 1.0;
 
 /// What a task needs besides the robot.
 pub(crate) struct Surroundings<'a> {
@@ -40,6 +45,8 @@ pub(crate) struct Surroundings<'a> {
 enum Move {
     Follow(Part, Vec<String>),
     Navigate([f64; 3]),
+    /// Close the hand, where a path does.
+    Grip,
     /// Goal of MoveGroup.
     Group(Value),
 }
@@ -117,7 +124,8 @@ pub(crate) enum Finish {
 /// A goal of the host.
 pub(crate) struct Task {
     pub(crate) command: Arc<Command>,
-    fails: Vec<String>,
+    /// What the primitive declares.
+    called: CalledPrimitive,
     steps: VecDeque<Step>,
     moves: VecDeque<Move>,
     running: Vec<Running>,
@@ -136,6 +144,11 @@ pub(crate) struct Task {
     detected: BTreeSet<String>,
     /// Move that runs, for a hold.
     current: Option<Move>,
+    /// Places of a search that are left, and the one where it looks.
+    elsewhere: VecDeque<String>,
+    place: Option<String>,
+    /// True once a path of the step has closed the hand: the rest of it is not looked for anew.
+    has_gripped: bool,
     /// Number of paths of the step that were looked for because the robot was elsewhere.
     detours: u32,
     held: bool,
@@ -147,12 +160,12 @@ pub(crate) struct Task {
 }
 
 impl Task {
-    /// A task of some steps. `fails` are the failures that its primitive declares.
+    /// A task of some steps of a primitive.
     #[must_use]
-    pub(crate) fn new(command: Arc<Command>, steps: Vec<Step>, fails: Vec<String>) -> Self {
+    pub(crate) fn new(command: Arc<Command>, steps: Vec<Step>, called: CalledPrimitive) -> Self {
         Self {
             command,
-            fails,
+            called,
             steps: steps.into(),
             moves: VecDeque::new(),
             running: Vec::new(),
@@ -165,6 +178,9 @@ impl Task {
             result: None,
             detected: BTreeSet::new(),
             current: None,
+            elsewhere: VecDeque::new(),
+            place: None,
+            has_gripped: false,
             detours: 0,
             held: false,
             stopping: None,
@@ -196,9 +212,12 @@ impl Task {
     /// A failure of the step that runs, in words.
     fn failure(&self, text: String) -> FailureReport {
         let step = self.steps.front();
-        let kind = step.and_then(|step| step.fails.clone()).filter(|kind| self.fails.contains(kind));
-        let kind = kind.or_else(|| self.fails.first().cloned()).unwrap_or_else(|| "failed".to_owned());
-        FailureReport { kind: kind.into(), text: Some(text.into()) }
+        let fails = &self.called.fails;
+        let kind = step
+            .and_then(|step| step.fails.as_deref())
+            .and_then(|kind| fails.iter().find(|own| *own == kind));
+        let kind = kind.or(fails.first()).cloned().unwrap_or_else(|| "failed".into());
+        FailureReport { kind, text: Some(text.into()) }
     }
 
     /// Brings the task to an early end.
@@ -346,7 +365,7 @@ impl Task {
 
     fn step_done(&mut self) {
         self.steps.pop_front();
-        (self.phase, self.detours) = (Phase::Next, 0);
+        (self.phase, self.detours, self.has_gripped) = (Phase::Next, 0, false);
     }
 
     /// True once the parts that the task has moved stand still: a server that says that it has succeeded is
@@ -397,6 +416,8 @@ impl Task {
         let Some(step) = self.steps.front().cloned() else { return true };
         match step.deed {
             Deed::Motion(direction) => self.begin_motion(around, direction),
+            Deed::Posture(_) | Deed::Go(_) => self.begin_way(around),
+            Deed::Search => self.begin_search(around),
             Deed::Look => self.begin_look(around),
             Deed::Gripper(opening) => self.begin_gripper(around, opening),
             Deed::Call(call) => self.begin_call(around, &call),
@@ -415,7 +436,8 @@ impl Task {
             }
             Deed::Detect => {
                 let secs = around.robot.binding.detections.as_ref().map_or(0.0, |topic| topic.timeout_secs);
-                let until = Instant::now() + Duration::from_secs_f64(secs.clamp(0.0, 3600.0));
+                let most = if self.finds_all() { FINDS_ALL_SECS } else { 3600.0 };
+                let until = Instant::now() + Duration::from_secs_f64(secs.clamp(0.0, most));
                 self.detected.clear();
                 self.phase = Phase::Detecting { until };
                 false
@@ -445,6 +467,8 @@ impl Task {
                 match *answer {
                     Ok(witness) => self.take_path(around, &witness),
                     Err(_) if looks => self.step_done(),
+                    // A goal of MoveGroup is that of the command.
+                    Err(why) if self.way().is_some() => self.fail(around, why.says),
                     Err(why) => self.plan_by_move_group(around, &why),
                 }
                 true
@@ -487,13 +511,20 @@ impl Task {
             Phase::Answering { topic, value, until } => {
                 let (topic, value, is_late) = (topic.clone(), value.clone(), now > *until);
                 match around.robot.evaluate(&topic, &value, &self.words(), Duration::from_secs(5)) {
+                    // Without a result, the value is what is waited for.
+                    Some(Found::Truth(false)) if self.called.result.is_none() && !is_late => false,
+                    Some(Found::Truth(false)) if self.called.result.is_none() => {
+                        self.fail(around, format!("`{value}` is false on {topic}"));
+                        true
+                    }
                     Some(found) => {
-                        self.result = Some(match found {
-                            Found::Truth(truth) => Argument::Bool(truth),
-                            Found::Number(number) => Argument::Number(number),
-                            Found::Text(text) => Argument::Text(text.into()),
-                        });
-                        self.step_done();
+                        match self.answered(around, found) {
+                            Ok(answer) => {
+                                self.result = answer;
+                                self.step_done();
+                            }
+                            Err(why) => self.fail(around, why),
+                        }
                         true
                     }
                     None if is_late => {

@@ -40,7 +40,6 @@ pub(crate) struct World {
     reported: BTreeMap<String, [f64; 3]>,
     /// Detections that the host does not know of.
     news: Vec<DetectedThing>,
-    posture: Option<&'static str>,
 }
 
 impl World {
@@ -72,7 +71,6 @@ impl World {
             found: BTreeSet::new(),
             reported: BTreeMap::new(),
             news: Vec::new(),
-            posture: Some("arm_home"),
         }
     }
 
@@ -95,8 +93,6 @@ impl World {
                 self.at = to.into_iter().collect();
             }
             "go_to_pose" | "turn" => self.at.clear(),
-            "home" => self.posture = Some("arm_home"),
-            "start_pose" => self.posture = Some("arm_ready"),
             "pick" | "grasp" => self.put(object, Place::Hand),
             "place" | "place_at" => {
                 let place = on.map_or(Place::Unknown, |on| {
@@ -106,15 +102,37 @@ impl World {
                 self.put(object, place);
             }
             "handover" => self.put(object, to.map_or(Place::Unknown, Place::At)),
-            "open" | "close" => self.open.extend(what.map(|what| (what, primitive == "open"))),
+            "open" | "close" => what.iter().for_each(|what| self.moved(what, primitive == "open")),
             _ => {}
         }
     }
 
+    /// Takes in that a container was opened or closed.
+    pub(crate) fn moved(&mut self, container: &str, is_open: bool) {
+        self.open.insert(container.to_owned(), is_open);
+        // Paths are looked for in the scene.
+        if let Some(entity) = self.scene.entities.get_mut(container) {
+            entity.open = Some(is_open);
+        }
+    }
+
+    /// Takes in that the robot stands where it serves a place, and that a thing was found there.
+    pub(crate) fn found(&mut self, place: &str, thing: &str) {
+        self.visited.insert(place.to_owned());
+        self.at = [place, thing].map(str::to_owned).into();
+    }
+
     /// Takes in a failure or an interruption: what the goal handled may be anywhere.
     pub(crate) fn failed(&mut self, primitive: &str, args: &[(String, Value)]) {
-        if matches!(primitive, "go" | "go_to_pose") {
+        if matches!(primitive, "go" | "go_to_pose" | "turn" | "search") {
             self.at.clear();
+        }
+        if matches!(primitive, "open" | "close") {
+            for (_, value) in args {
+                if let Value::Entity(id) = value {
+                    self.open.remove(id.as_str());
+                }
+            }
         }
         for (_, value) in args {
             if let Value::Entity(id) = value
@@ -218,7 +236,6 @@ impl World {
         match (fluent, args) {
             ("holding" | "lifted", [thing]) => place(thing).map(|place| *place == Place::Hand),
             ("free", ["hand"]) => Some(self.held().is_none()),
-            ("standing", _) => Some(true),
             ("at", ["robot", to]) => Some(self.at.contains(*to) || self.stands(to)),
             ("at", [thing, to]) => match place(thing)? {
                 Place::Unknown => None,
@@ -243,7 +260,6 @@ impl World {
             ("visible" | "located", [what]) => {
                 self.seen.get(*what).is_some_and(|at| at.elapsed() < IN_VIEW).then_some(true)
             }
-            ("arm_home" | "arm_ready" | "arm_carry", ["robot"]) => Some(self.posture == Some(fluent)),
             _ => None,
         }
     }
@@ -273,4 +289,42 @@ fn pattern(arg: &Pattern) -> Option<Option<&str>> {
 
 fn distance(one: [f64; 3], other: [f64; 3]) -> f64 {
     one.iter().zip(other).map(|(one, other)| (one - other).powi(2)).sum::<f64>().sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::check::read_scene;
+
+    fn fact(world: &World, fluent: &str, args: &[&str]) -> Option<Value> {
+        let args = args.iter().map(|id| Pattern::Is(Value::Entity((*id).into()))).collect();
+        world.answer(&Query::Fact { fluent: fluent.into(), args }, None)
+    }
+
+    #[test]
+    fn world_knows_nothing_of_legs_and_postures() {
+        let world = World::new(read_scene("kitchen").unwrap());
+        for fluent in ["standing", "arm_home", "arm_ready", "arm_carry"] {
+            assert_eq!(fact(&world, fluent, &["robot"]), None, "{fluent}");
+        }
+    }
+
+    #[test]
+    fn world_plans_with_what_was_opened() {
+        let mut world = World::new(read_scene("kitchen").unwrap());
+        let what = [("what".to_owned(), Value::Entity("drawer_1".into()))];
+        world.done("open", &what);
+        assert_eq!(fact(&world, "open", &["drawer_1"]), Some(Value::Bool(true)));
+        assert_eq!(world.scene.entities["drawer_1"].open, Some(true));
+        world.failed("close", &what);
+        assert_eq!(fact(&world, "open", &["drawer_1"]), None);
+    }
+
+    #[test]
+    fn world_finds_things_by_their_ids_and_names() {
+        let world = World::new(read_scene("kitchen").unwrap());
+        assert_eq!(world.matches("mug_1"), ["mug_1"]);
+        assert_eq!(world.matches("Kitchen Table"), ["kitchen_table"]);
+        assert!(world.matches("elephant").is_empty());
+    }
 }

@@ -57,8 +57,8 @@ class RobotProcess:
 class Driver:
     """`motet-ros2 drive`, and what it reported."""
 
-    def __init__(self, binding="hsr.toml", run="test", greet=True, motet=MOTET):
-        command = [DRIVER, "drive", str(HERE / binding), "--robot", "hsr", "--scene", "kitchen", "--motet", motet]
+    def __init__(self, binding="hsr.toml", run="test", greet=True, motet=MOTET, robot="hsr", scene="kitchen"):
+        command = [DRIVER, "drive", str(HERE / binding), "--robot", robot, "--scene", scene, "--motet", motet]
         self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         self.lines, self.number, self.reports, self.goals = queue.Queue(), 0, [], 0
         self.is_deaf = self.closes = False
@@ -68,7 +68,7 @@ class Driver:
         self.lock = threading.Lock()
         if greet:
             fails = {"home": ["blocked"], "go": ["unreachable", "blocked"], "detect": ["not_found", "ambiguous"], "say": []}
-            self.welcome = self.call("hello", protocol=2, run=run, resumed=False, at=0.0, robot="hsr", policy="test",
+            self.welcome = self.call("hello", protocol=2, run=run, resumed=False, at=0.0, robot=robot, policy="test",
                                      primitives=[{"name": name, "fails": kinds} for name, kinds in fails.items()])
 
     def read(self):
@@ -220,3 +220,39 @@ def pixels(picture):
     assert image.size == (picture["image"]["width"], picture["image"]["height"])
     depth = np.frombuffer(base64.b64decode(picture["depth"]["mm"]), dtype="<u2").reshape(image.height, image.width)
     return np.asarray(image), depth / 1000.0
+
+
+class Agent:
+    """A client of `motet mcp`."""
+
+    def __init__(self, robot, scene, driver):
+        journals = tempfile.mkdtemp()
+        command = [MOTET, "mcp", "--robot", robot, "--scene", scene, "--drive", driver, "--journals", journals]
+        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        self.answers, self.number = {}, 0
+        threading.Thread(target=self.read, daemon=True).start()
+        self.call("initialize", protocolVersion="2025-06-18", capabilities={}, clientInfo={"name": "test", "version": "1"})
+        self.send({"jsonrpc": "2.0", "method": "notifications/initialized"})
+
+    def read(self):
+        for line in self.process.stdout:
+            message = json.loads(line)
+            if message.get("id") in self.answers:
+                self.answers[message["id"]].put(message)
+
+    def send(self, message):
+        self.process.stdin.write(json.dumps(message) + "\n")
+        self.process.stdin.flush()
+
+    def begin(self, method, **params):
+        self.number += 1
+        answer = self.answers[self.number] = queue.Queue()
+        self.send({"jsonrpc": "2.0", "id": self.number, "method": method, "params": params})
+        return answer
+
+    def call(self, method, **params):
+        return self.begin(method, **params).get(timeout=90)
+
+    def close(self):
+        self.process.stdin.close()
+        self.process.wait(timeout=20)

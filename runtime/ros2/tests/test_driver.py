@@ -11,11 +11,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from cyclone import RELIABLE, Node, Types
 from cyclonedds.builtin import BuiltinDataReader, BuiltinTopicDcpsSubscription
 from cyclonedds.core import Policy
 from cyclonedds.domain import DomainParticipant
 from host import DRIVER, HERE, MOTET, Driver, RobotProcess, drive, pixels
 from robot import spline
+from scenarios import SCENARIOS, Subject
 
 TRAJECTORY = "/arm_trajectory_controller/follow_joint_trajectory"
 
@@ -416,16 +418,30 @@ def test_a_path_on_which_base_and_arm_move_at_once_is_no_navigation():
         assert not robot.events("navigate")
 
 
+def for_cyclone(name, folder):
+    """A binding of a container for the robot of the tests."""
+    text = (HERE / "container" / (name + ".toml")).read_text()
+    own = Path(folder) / "own.toml"
+    own.write_text(text.replace("fastdds", "cyclonedds").replace("TwistStamped", "Twist"))
+    return own
+
+
+@pytest.mark.parametrize("name, robot, base", [("panda", "panda", ["0", "0", "0"]), ("nav2", "hsr", ["-2.0", "-0.5", "0"])])
+@pytest.mark.parametrize("scenario", SCENARIOS)
+def test_the_scenarios_for_containers(tmp_path, name, robot, base, scenario):
+    own = for_cyclone(name, tmp_path)
+    with RobotProcess("--base", *base, binding=own):
+        scenario(Subject(own, robot, HERE / "container" / (name + ".json")))
+
+
 @pytest.mark.parametrize("name, robot, base, event, times", [
     ("panda", "panda", ["0", "0", "0"], "trajectory", 3),
     ("nav2", "hsr", ["-2.0", "-0.5", "0"], "navigate", 1),
 ])
 def test_the_policies_for_containers_run(name, robot, base, event, times):
     binding = HERE / "container" / (name + ".toml")
-    text = binding.read_text().replace("fastdds", "cyclonedds").replace("TwistStamped", "Twist")
     with tempfile.TemporaryDirectory() as folder:
-        own = Path(folder) / "own.toml"
-        own.write_text(text)
+        own = for_cyclone(name, folder)
         with RobotProcess("--base", *base, binding=own) as served:
             flags = ["--robot", robot, "--scene", str(binding.with_suffix(".json")), "--driver", "ros2:%s" % own]
             done = subprocess.run([MOTET, "run", str(binding.with_suffix(".motet")), *flags], capture_output=True, text=True, timeout=60)
@@ -441,6 +457,44 @@ def test_the_binding_is_compared_with_the_network():
         assert "its server is there" in done.stdout and "✗ /say" in done.stdout and "1 problem" in done.stdout, done.stdout
     done = subprocess.run(check, capture_output=True, text=True, timeout=60)
     assert done.returncode == 1 and "nobody serves arm_trajectory_controller" in done.stdout, done.stdout
+
+
+def compared(binding):
+    """Lines of `check --live` with problems."""
+    done = subprocess.run([DRIVER, "check", str(binding), "--robot", "hsr", "--live"], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 1, done.stdout + done.stderr
+    return [" ".join(line.split()) for line in done.stdout.splitlines() if "✗" in line]
+
+
+def test_types_and_qualities_that_differ_are_told(tmp_path):
+    own = tmp_path / "own.toml"
+    text = (HERE / "nav.toml").read_text().replace('stop = "/cmd_vel"', 'stop = "/cmd_vel"\nstop_type = "geometry_msgs/TwistStamped"')
+    hand = text.index("[gripper]")
+    end = text.index("[primitives.go]")
+    text = text[:hand] + '''[gripper]
+action = "/gripper_controller/gripper_cmd"
+type = "control_msgs/FollowJointTrajectory"
+open = {}
+close = {}
+''' + text[end:].replace('topic = "/detections"', 'topic = "/seen"')
+    text += '\n[facts.visible]\ntopic = "/detections"\ntype = "std_msgs/Bool"\nvalue = "data"\n'
+    own.write_text(text)
+    node = Node(Types(), 0)
+    with RobotProcess(binding="nav.toml"):
+        told = compared(own)
+    assert "✗ /cmd_vel read as geometry_msgs/Twist, and bound as geometry_msgs/TwistStamped; what the driver sends is not heard" in told
+    part = "✗ /gripper_controller/gripper_cmd gripper_controller/gripper_cmd/_action/send_goal is read as " \
+        "control_msgs/GripperCommand_SendGoal_Request, and bound as control_msgs/FollowJointTrajectory_SendGoal_Request; " \
+        "what the driver sends is not heard"
+    assert part in told, told
+    assert len([line for line in told if "/gripper_controller/gripper_cmd " in line]) == 5, told
+    assert "✗ /detections sent as vision_msgs/Detection3DArray, and bound as std_msgs/Bool; the driver does not hear it" in told
+    assert "✗ /seen nobody sends it" in told
+    # A writer that offers less than the driver asks for is not heard.
+    late = node.publisher("/tf_static", "tf2_msgs/TFMessage", RELIABLE)
+    told = compared(own)
+    del late
+    assert "✗ /tf_static sent as volatile, and the driver asks for transient local; the driver does not hear it" in told, told
 
 
 @pytest.fixture

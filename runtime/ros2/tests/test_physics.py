@@ -5,13 +5,11 @@ import math
 import os
 import subprocess
 import sys
-import threading
 import time
-from queue import Queue
 
 import numpy as np
 import pytest
-from host import HERE, MOTET, Driver, RobotProcess, drive, pixels
+from host import HERE, MOTET, Agent, Driver, RobotProcess, drive, pixels
 
 EXAMPLES = HERE.parent.parent.parent / "examples"
 DRIVER = "ros2:%s" % (HERE / "hsr.toml")
@@ -42,44 +40,9 @@ def test_fetch_mug_through_dds_ends_as_the_direct_run_does():
     assert endings(events) == endings(direct)
 
 
-class Agent:
-    """A client of `motet mcp`."""
-
-    def __init__(self):
-        command = [MOTET, "mcp", "--robot", "hsr", "--scene", "kitchen", "--drive", DRIVER]
-        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-        self.answers, self.number = {}, 0
-        threading.Thread(target=self.read, daemon=True).start()
-        self.call("initialize", protocolVersion="2025-06-18", capabilities={}, clientInfo={"name": "test", "version": "1"})
-        self.send({"jsonrpc": "2.0", "method": "notifications/initialized"})
-
-    def read(self):
-        for line in self.process.stdout:
-            message = json.loads(line)
-            if message.get("id") in self.answers:
-                self.answers[message["id"]].put(message)
-
-    def send(self, message):
-        self.process.stdin.write(json.dumps(message) + "\n")
-        self.process.stdin.flush()
-
-    def begin(self, method, **params):
-        self.number += 1
-        answer = self.answers[self.number] = Queue()
-        self.send({"jsonrpc": "2.0", "id": self.number, "method": method, "params": params})
-        return answer
-
-    def call(self, method, **params):
-        return self.begin(method, **params).get(timeout=90)
-
-    def close(self):
-        self.process.stdin.close()
-        self.process.wait(timeout=20)
-
-
 def test_a_policy_is_swapped_in_mid_motion():
     with RobotProcess("--physics") as robot:
-        agent = Agent()
+        agent = Agent("hsr", "kitchen", DRIVER)
         first = agent.begin("tools/call", name="run_policy", arguments={"policy": "policy a for hsr { go(kitchen_table) done }"})
         while not robot.events("trajectory"):
             time.sleep(0.05)

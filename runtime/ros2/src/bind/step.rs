@@ -11,11 +11,12 @@ pub(crate) struct Primitive {
     pub(crate) steps: Vec<StepTable>,
 }
 
-/// Step as the file writes it: exactly one of its first ten keys.
+/// Step as the file writes it: exactly one of its first twelve keys.
 #[derive(Clone, PartialEq, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub(crate) struct StepTable {
     motion: Option<Direction>,
+    posture: Option<String>,
     gripper: Option<Opening>,
     action: Option<String>,
     service: Option<String>,
@@ -24,6 +25,7 @@ pub(crate) struct StepTable {
     require: Option<String>,
     look: Option<bool>,
     detect: Option<bool>,
+    search: Option<bool>,
     answer: Option<String>,
     #[serde(rename = "type")]
     type_name: Option<String>,
@@ -100,6 +102,10 @@ pub(crate) struct Step {
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Deed {
     Motion(Direction),
+    /// Move to a posture of the card, along a path from where the robot stands.
+    Posture(String),
+    /// Go to an entity, along a path from where the robot stands: a part of [`Deed::Search`].
+    Go(String),
     Gripper(Opening),
     Call(Call),
     Wait(f64),
@@ -109,6 +115,9 @@ pub(crate) enum Deed {
     Look,
     /// Wait for a detection of what the first argument describes.
     Detect,
+    /// Go to each entity of the argument `around`, and wait there for a detection of what the first argument
+    /// describes.
+    Search,
     /// Wait for a message of a topic; the expression over it is the result.
     Answer {
         topic: String,
@@ -146,6 +155,7 @@ impl StepTable {
         };
         let deeds = [
             self.motion.map(|direction| Ok(Deed::Motion(direction))),
+            self.posture.as_ref().map(|name| Ok(Deed::Posture(name.clone()))),
             self.gripper.map(|opening| Ok(Deed::Gripper(opening))),
             self.action.as_ref().map(|name| call(CallKind::Action, name)),
             self.service.as_ref().map(|name| call(CallKind::Service, name)),
@@ -154,14 +164,15 @@ impl StepTable {
             self.require.as_ref().map(|text| Ok(Deed::Require(text.clone()))),
             self.look.filter(|is_set| *is_set).map(|_| Ok(Deed::Look)),
             self.detect.filter(|is_set| *is_set).map(|_| Ok(Deed::Detect)),
+            self.search.filter(|is_set| *is_set).map(|_| Ok(Deed::Search)),
             self.answer.as_ref().map(answer),
         ];
         let mut deeds = deeds.into_iter().flatten();
         let deed = match (deeds.next(), deeds.next()) {
             (Some(deed), None) => deed?,
             _ => {
-                return Err("a step has exactly one of motion, gripper, action, service, topic, wait_secs, \
-                            require, look, detect and answer"
+                return Err("a step has exactly one of motion, posture, gripper, action, service, topic, \
+                            wait_secs, require, look, detect, search and answer"
                     .to_owned());
             }
         };

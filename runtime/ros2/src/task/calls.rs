@@ -1,66 +1,36 @@
 //! Steps of a task that are no motions: the hand, calls, and detections.
 
-use super::{Ending, Phase, Surroundings, Task};
+use super::{Phase, Surroundings, Task};
 use crate::bind::{Call, CallKind, Opening};
-use crate::template::{fill, of_argument, of_pose};
+use crate::template::{ValueName, fill, in_unit, of_argument, of_pose};
 use crate::tf::Transform;
 use motet_graph::Value as Argument;
-use motet_host::remote::protocol::DetectedThing;
-use motet_runtime::FailureReport;
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 
 impl Task {
-    /// Takes in detections. What the step looks for and the scene lacks becomes a thing of the room, unless a
-    /// known thing is seen that is described so: a detector may see one thing twice.
-    pub(super) fn hear_detections(&mut self, around: &mut Surroundings<'_>, things: &[DetectedThing]) {
-        let known: Vec<String> = things.iter().filter_map(|thing| thing.id.clone()).collect();
-        let what = self.words().into_iter().next().unwrap_or_default();
-        let is_seen = around.world.matches(&what).iter().any(|id| known.contains(id));
-        if !is_seen {
-            let unknown = things.iter().filter(|thing| thing.id.is_none());
-            self.detected.extend(unknown.filter_map(|thing| around.world.discover(&what, thing)));
-        }
-        self.detected.extend(known);
-    }
-
-    /// Ends the step if what was looked for is detected. True if it is over.
-    pub(super) fn find_detected(&mut self, around: &mut Surroundings<'_>, is_late: bool) -> bool {
-        let what = self.words().into_iter().next().unwrap_or_default();
-        let wanted = around.world.matches(&what);
-        let mut found: Vec<String> = wanted.into_iter().filter(|id| self.detected.contains(id)).collect();
-        found.sort();
-        let ambiguous = self.fails.iter().any(|kind| kind == "ambiguous");
-        match found.as_slice() {
-            [] if is_late => {
-                let failure = FailureReport {
-                    kind: "not_found".into(),
-                    text: Some(format!("no detection is called {what}").into()),
-                };
-                self.stop(around, Ending::Fail(failure));
-                true
-            }
-            [] => false,
-            [_, _, ..] if ambiguous => {
-                let text = format!("{} detections are called {what}", found.len());
-                let failure = FailureReport { kind: "ambiguous".into(), text: Some(text.into()) };
-                self.stop(around, Ending::Fail(failure));
-                true
-            }
-            [id, ..] => {
-                self.result = Some(Argument::Entity(id.as_str().into()));
-                self.step_done();
-                true
-            }
-        }
-    }
-
     pub(super) fn begin_gripper(&mut self, around: &mut Surroundings<'_>, opening: Opening) -> bool {
-        let Some(gripper) = around.robot.binding.gripper.clone() else { return true };
-        let Some(action) = around.robot.action_at(&gripper.action) else { return true };
-        if !self.are_there(around, &[action]) {
-            return self.stopping.is_some();
+        let goal = match self.gripper_goal(around, opening) {
+            Ok(goal) => goal,
+            Err(why) => {
+                self.fail(around, why);
+                return true;
+            }
+        };
+        if self.are_there(around, &[goal.0]) {
+            self.send(around, vec![goal], true);
         }
+        self.stopping.is_some()
+    }
+
+    /// Goal of the hand: its action, the message, and the seconds that it may take.
+    pub(super) fn gripper_goal(
+        &mut self,
+        around: &Surroundings<'_>,
+        opening: Opening,
+    ) -> Result<(usize, Value, f64), String> {
+        let gripper = around.robot.binding.gripper.as_ref().ok_or("no [gripper] is bound")?;
+        let action = around.robot.action_at(&gripper.action).ok_or("the gripper is not open")?;
         let template = match opening {
             Opening::Open => &gripper.open,
             Opening::Close => &gripper.close,
@@ -69,18 +39,19 @@ impl Task {
             }
         };
         let width = self.width.map(|width| gripper.offset + gripper.scale * width);
-        let named = |name: &str| match (name, width) {
-            ("width", Some(width)) => Ok(json!(width)),
-            ("width", None) => Err("no path says how wide the hand is to open".to_owned()),
-            _ => Err(format!("no value `{name}`")),
+        let named = |name: &str| {
+            let ValueName { name, within, .. } = ValueName::of(name);
+            let width = width.filter(|_| name == "width");
+            let width = width.ok_or_else(|| match name {
+                "width" => "no path says how wide the hand is to open".to_owned(),
+                _ => format!("no value `{name}`"),
+            })?;
+            within.map_or(Ok(json!(width)), |unit| in_unit(width, unit))
         };
+        let goal = fill(template, &named)?;
         self.parts.all |= gripper.joints.is_empty();
         self.parts.joints.extend(gripper.joints.iter().cloned());
-        match fill(template, &named) {
-            Ok(goal) => self.send(around, vec![(action, goal, gripper.timeout_secs)], true),
-            Err(why) => self.fail(around, why),
-        }
-        self.stopping.is_some()
+        Ok((action, goal, gripper.timeout_secs))
     }
 
     pub(super) fn begin_call(&mut self, around: &mut Surroundings<'_>, call: &Call) -> bool {
@@ -127,12 +98,10 @@ impl Task {
         }
     }
 
-    /// Value in a message: an argument, `NAME.pose` of an entity, the `goal` of the base, or a pose
-    /// `NAME in FRAME`.
+    /// Value in a message: an argument, `NAME.pose` of an entity, the `goal` of the base, a pose
+    /// `NAME in FRAME`, or a number `NAME in UNIT`.
     fn named(&self, around: &Surroundings<'_>, name: &str) -> Result<Value, String> {
-        let (name, frame) =
-            name.split_once(" in ").map_or((name, None), |(name, frame)| (name, Some(frame.trim())));
-        let (name, field) = name.split_once('.').map_or((name, None), |(name, field)| (name, Some(field)));
+        let ValueName { name, field, within: frame } = ValueName::of(name);
         let pose = if name == "goal" {
             let (part, _) = self.path.as_ref().ok_or("the command has no path yet")?;
             let [x, y, yaw] = part.waypoints.last().map_or([0.0; 3], |(base, _)| *base);
@@ -146,6 +115,12 @@ impl Task {
                 }
                 (Argument::Pose(pose), None) => {
                     Some(Transform { xyz: pose.xyz, quaternion: pose.quaternion })
+                }
+                (Argument::Number(number), None) if frame.is_some() => {
+                    return in_unit(*number, frame.unwrap_or_default());
+                }
+                (value, None) if frame.is_some() => {
+                    return Err(format!("`{name}` is {value}, which has neither a frame nor a unit"));
                 }
                 (value, None) => return Ok(of_argument(value)),
                 (_, Some(field)) => return Err(format!("`{name}` has no `{field}`")),

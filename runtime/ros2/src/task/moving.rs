@@ -1,7 +1,7 @@
 //! Motions of a task: paths from the command or of the driver's own, as trajectories and navigations.
 
 use super::{Move, Phase, Running, Surroundings, Task, unheard};
-use crate::bind::{Binding, Controller, Deed, Direction};
+use crate::bind::{Binding, Controller, Deed, Direction, Opening};
 use crate::joint::{Axis, Part, Trajectory};
 use crate::plan::{self, Question};
 use crate::robot::Robot;
@@ -28,7 +28,7 @@ impl Task {
                 self.fail(around, "no way there was followed before".to_owned());
                 return true;
             };
-            self.plan_moves(around, &part.reversed(), &names);
+            self.plan_moves(around, &[part.reversed()], &names);
             return true;
         }
         let Some(motion) = self.command.motions.first().cloned() else {
@@ -61,8 +61,9 @@ impl Task {
     /// ends near its goal. A way back has none.
     pub(super) fn plan_anew(&mut self, around: &mut Surroundings<'_>, away: String) {
         let is_there = self.steps.front().is_some_and(|step| step.deed == Deed::Motion(Direction::There));
-        let motion = self.command.motions.first().filter(|_| is_there && self.detours < MAX_DETOURS);
-        let Some(motion) = motion.map(|motion| plan::motion(motion)) else {
+        let own = self.command.motions.first().filter(|_| is_there).map(|motion| plan::motion(motion));
+        let is_free = self.detours < MAX_DETOURS && !self.has_gripped;
+        let Some(motion) = self.way().or(own).filter(|_| is_free) else {
             self.fail(around, away);
             return;
         };
@@ -147,36 +148,48 @@ impl Task {
         }
         let names = names_of(witness);
         self.path = Some((part.clone(), names.clone()));
-        self.plan_moves(around, &part, &names);
+        let place =
+            |(joint, open): (&String, &f64)| Some((names.iter().position(|own| own == joint)?, *open));
+        let hand: Vec<(usize, f64)> = around.card.open_hand.iter().filter_map(place).collect();
+        self.plan_moves(around, &part.between_grips(&hand), &names);
     }
 
-    /// Splits a path into moves that the controllers can carry out.
-    pub(super) fn plan_moves(&mut self, around: &mut Surroundings<'_>, part: &Part, names: &[String]) {
-        let binding = &around.robot.binding;
-        let follows = binding.controllers.iter().any(|controller| !controller.base.is_empty());
-        if !part.drives() || follows {
-            self.moves.push_back(Move::Follow(part.clone(), names.to_vec()));
-        } else if binding.navigation.is_some() {
-            let Some(phases) = part.phases() else {
-                self.fail(around, "base and arm move at once, which a navigation cannot".to_owned());
-                return;
-            };
-            for (drives, phase) in phases {
-                let end = phase.waypoints.last().map_or([0.0; 3], |(base, _)| *base);
-                self.moves.push_back(if drives {
-                    Move::Navigate(end)
-                } else {
-                    Move::Follow(phase, names.to_vec())
-                });
+    /// Splits a path into moves that the controllers can carry out. Between its parts the hand closes.
+    pub(super) fn plan_moves(&mut self, around: &mut Surroundings<'_>, parts: &[Part], names: &[String]) {
+        for (at, part) in parts.iter().enumerate() {
+            if at > 0 {
+                self.moves.push_back(Move::Grip);
             }
-        } else {
-            self.fail(around, "nothing is bound that drives the base".to_owned());
-            return;
+            if let Err(why) = self.plan_part(&around.robot.binding, part, names) {
+                self.fail(around, why);
+                return;
+            }
         }
         self.phase = Phase::Next;
         if self.moves.is_empty() {
             self.step_done();
         }
+    }
+
+    fn plan_part(&mut self, binding: &Binding, part: &Part, names: &[String]) -> Result<(), String> {
+        let follows = binding.controllers.iter().any(|controller| !controller.base.is_empty());
+        if part.legs.is_empty() {
+            return Ok(());
+        }
+        if !part.drives() || follows {
+            self.moves.push_back(Move::Follow(part.clone(), names.to_vec()));
+            return Ok(());
+        }
+        if binding.navigation.is_none() {
+            return Err("nothing is bound that drives the base".to_owned());
+        }
+        let phases = part.phases().ok_or("base and arm move at once, which a navigation cannot")?;
+        for (drives, phase) in phases {
+            let end = phase.waypoints.last().map_or([0.0; 3], |(base, _)| *base);
+            let follow = || Move::Follow(phase.clone(), names.to_vec());
+            self.moves.push_back(if drives { Move::Navigate(end) } else { follow() });
+        }
+        Ok(())
     }
 
     pub(super) fn begin_move(&mut self, around: &mut Surroundings<'_>, next: Move) -> bool {
@@ -213,8 +226,10 @@ impl Task {
             return self.stopping.is_some();
         }
         self.moves.pop_front();
+        let is_grip = matches!(next, Move::Grip);
+        self.has_gripped |= is_grip;
         self.current = Some(next);
-        self.send(around, goals, false);
+        self.send(around, goals, is_grip);
         self.stopping.is_some()
     }
 
@@ -236,6 +251,7 @@ impl Task {
                 self.parts.drives = true;
                 Ok(vec![(action, goal, self.command.deadline_secs)])
             }
+            Move::Grip => self.gripper_goal(around, Opening::Close).map(|goal| vec![goal]),
             Move::Group(goal) => {
                 let bound = robot.binding.move_group.as_ref().ok_or("MoveGroup is not bound")?;
                 let action = robot.action_at(&bound.action).ok_or("MoveGroup is not open")?;

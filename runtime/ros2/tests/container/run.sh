@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Drives MoveIt's Panda and Nav2's TurtleBot 3 in containers with ROS 2 jazzy: run.sh [panda|nav2]. Needs Docker, the
-# network, and `motet` and `motet-ros2` in PATH. Each robot runs its policy, and then a run that is stopped in mid-motion.
+# network, Python, and `motet` and `motet-ros2` in PATH. Each robot runs its policy, then a run that is stopped in
+# mid-motion, and then the scenarios of the local tests: a cancel, a restart, a swap, and a goal of MoveGroup.
 set -euo pipefail
 cd "$(dirname "$0")"
 image="${IMAGE:-osrf/ros:jazzy-desktop}"
@@ -34,6 +35,7 @@ for name in ${1:-panda nav2}; do
     "${run[@]}"
     "${run[@]}" & sleep 3 && kill -INT $!
     if wait $!; then echo "$name: the run that was stopped says that it is done"; exit 1; fi
+    python3 ../scenarios.py "$PWD/$name.toml" "${robots[$name]}" "$PWD/$name.json"
     docker kill "$container" >/dev/null
     trap - EXIT
     echo "$name: passed"
