@@ -58,20 +58,25 @@ def stands(driver):
     return apart(before, place(driver)) < 0.01
 
 
+def departs(subject, driver):
+    """Begins a motion, and waits until the robot moves. An arm goes first to where it can leave from."""
+    if subject.is_arm:
+        assert driver.ended(subject.begin(driver, True), 60.0) == {"success": None}
+    goal = subject.begin(driver, False)
+    moves(driver)
+    return goal
+
+
 def cancel(subject):
     with subject.driver() as driver:
-        if subject.is_arm:
-            assert driver.ended(subject.begin(driver, True), 60.0) == {"success": None}
-        goal = subject.begin(driver, False)
-        moves(driver)
+        goal = departs(subject, driver)
         driver.call("cancel", goal=goal)
         assert driver.ended(goal, 15.0) == "interrupted" and stands(driver)
 
 
 def restart(subject):
     driver = subject.driver()
-    goal = subject.begin(driver, False)
-    moves(driver)
+    goal = departs(subject, driver)
     driver.kill()
     with subject.driver() as again:
         assert again.call("status", goals=[goal])["goals"][0]["state"] == "unknown"
