@@ -186,7 +186,7 @@ fn capabilities(driver: &dyn Driver, has_person: bool) -> Capabilities {
 /// Says which primitives the driver does not have, and the lines of their first calls.
 fn refuse(missing: &[MissingPrimitive], text: &PolicyText, format: OutputFormat, report: &mut Report) {
     if format == OutputFormat::Json {
-        report.out.line(&events::refused(missing, text));
+        report.out.line(&events::refused(missing, &|path| text.line(path)));
     }
     let place = |one: &MissingPrimitive| match text.line(&one.path) {
         Some(line) => format!("`{}` ({}:{line})", one.name, escape(&text.name)),

@@ -12,8 +12,6 @@ use motet_runtime::{
 use motet_syntax::{Diagnostic, Sources, render};
 use serde_json::{Map, json};
 
-use crate::page::source::PolicyText;
-
 /// Writer of the events of a run: it takes what the engine handles and gives out, and returns lines.
 #[derive(Debug)]
 pub struct RunEvents {
@@ -210,14 +208,14 @@ pub fn diagnostics(diagnostics: &[Diagnostic], sources: &Sources) -> Vec<String>
 }
 
 /// Line of the refusal of a policy by its driver: the primitives that the driver does not have, each with
-/// the first step that calls it.
+/// the first step that calls it. `line` gives the line of the step at a path.
 #[must_use]
-pub fn refused(missing: &[MissingPrimitive], text: &PolicyText) -> String {
+pub fn refused(missing: &[MissingPrimitive], line: &dyn Fn(&str) -> Option<usize>) -> String {
     let item = |one: &MissingPrimitive| {
         let mut item = Map::new();
         item.insert("primitive".to_owned(), json!(one.name.as_str()));
         item.insert("path".to_owned(), json!(one.path.as_str()));
-        item.extend(text.line(&one.path).map(|line| ("line".to_owned(), json!(line))));
+        item.extend(line(&one.path).map(|line| ("line".to_owned(), json!(line))));
         item
     };
     let items: Vec<_> = missing.iter().map(item).collect();

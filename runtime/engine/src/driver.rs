@@ -327,7 +327,8 @@ impl Default for Capabilities {
 }
 
 impl Capabilities {
-    /// Primitives that a graph calls and the driver does not have, in the order of their first calls. O(graph).
+    /// Primitives that a graph calls and the driver does not have, in the order of their first calls.
+    /// O(graph).
     #[must_use]
     pub fn missing(&self, graph: &Graph) -> Vec<MissingPrimitive> {
         let mut missing: Vec<MissingPrimitive> = Vec::new();

@@ -320,7 +320,7 @@ steps = [
 ]
 [primitives.pick]
 steps = [
-    { topic = "/pick", type = "std_msgs/String", message = { data = "{object} {object.pose in base} {from.pose}" } },
+    { topic = "/pick", type = "std_msgs/String", message = { data = "{object.pose in base} {from.pose}" } },
     { posture = "hme", fails = "timeout" },
     { topic = "/pick", type = "std_msgs/String", message = { data = "{object in base}" }, fails = "melted" },
 ]
@@ -335,8 +335,8 @@ steps = [{ search = true }, { wait_secs = 1.0, fails = "slipped" }]
             "✗ home step 2 in line 17: `fails = \"slipped\"` is no failure of `home`: `blocked`",
             "✗ pick step 1 in line 12: `{from.pose}`: `from` has no `pose`",
             "✗ pick step 2 in line 13: the robot has no posture `hme`: did you mean `home`?",
-            "✗ pick step 3 in line 14: `fails = \"melted\"` is no failure of `pick`: `not_found`, `unreachable`, \
-             `blocked`, `slipped` or `too_heavy`",
+            "✗ pick step 3 in line 14: `fails = \"melted\"` is no failure of `pick`: `not_found`, \
+             `unreachable`, `blocked`, `slipped` or `too_heavy`",
             "✗ pick step 3 in line 14: `{object in base}`: `object` has neither a frame nor a unit",
             "✗ say step 1 in line 4: `say` declares no motion",
             "✗ say step 2 in line 4: `{txt}` is no argument of `say`: did you mean `text`?",
@@ -350,7 +350,8 @@ steps = [{ search = true }, { wait_secs = 1.0, fails = "slipped" }]
 
     #[test]
     fn values_of_the_hand_are_its_width() {
-        let text = "joints = { topic = \"j\" }\n[gripper]\naction = \"/hand\"\ntype = \"t\"\nopen = {}\nclose = {}\n";
+        let text = "joints = { topic = \"j\" }\n\
+             [gripper]\naction = \"/hand\"\ntype = \"t\"\nopen = {}\nclose = {}\n";
         let of = |width: &str| {
             let binding = Binding::parse(&format!("{text}width = {{ p = \"{width}\" }}"), "own").unwrap();
             contract::of_gripper(&binding)

@@ -154,7 +154,8 @@ mod tests {
 
     #[test]
     fn question_is_open_from_its_command_to_its_end() {
-        let event = json!({"event": "command", "goal": "#2", "args": {"question": "Which?", "among": ["mug_1", "mug_2"]}});
+        let args = json!({"question": "Which?", "among": ["mug_1", "mug_2"]});
+        let event = json!({"event": "command", "goal": "#2", "args": args});
         let open = OpenQuestion::of_event(&event, "0af3").unwrap();
         let message = json!({"question": "0af3:#2", "text": "Which?", "options": ["mug_1", "mug_2"]});
         assert_eq!(open.message(), message);
