@@ -36,7 +36,7 @@ use clap::{Parser, Subcommand};
 use motet_syntax::render::escaped;
 
 use error::{CliError, Exit};
-use output::{ColorChoice, Colors, note};
+use output::{ColorChoice, Colors, note, styled_note};
 
 /// Check, format, compile, plan and run robot policies written in Motet
 #[derive(Parser, Debug)]
@@ -219,8 +219,8 @@ fn dispatch(command: &Command, colors: Colors) -> Result<Exit, CliError> {
 
 fn print_error(error: &CliError, colors: Colors) {
     let label = if colors.stderr { "\u{1b}[1;31merror\u{1b}[0m" } else { "error" };
-    note(&format!("{label}: {}", escaped(&error.to_string())));
+    styled_note(&format!("{label}: {}", escaped(&error.to_string())));
     if let Some(help) = error.help() {
-        note(&format!("  help: {}", escaped(help)));
+        note(&format!("  help: {help}"));
     }
 }

@@ -6,6 +6,7 @@ use std::path::Path;
 
 use clap::ValueEnum;
 use motet_project::ProjectError;
+use motet_syntax::render::escaped;
 
 use crate::error::CliError;
 
@@ -149,8 +150,13 @@ pub(crate) fn replace_secret(path: &Path, text: &str) -> Result<(), CliError> {
     })
 }
 
-/// Writes a line to stderr. Errors are ignored: nobody is left to read of them.
+/// Writes a line to stderr. What would steer a terminal is escaped: texts of others may be in it.
 pub(crate) fn note(text: &str) {
+    styled_note(&escaped(text));
+}
+
+/// Writes a line with its own colours to stderr. Errors are ignored: nobody is left to read of them.
+pub(crate) fn styled_note(text: &str) {
     let _ = writeln!(io::stderr().lock(), "{text}");
 }
 

@@ -1,4 +1,7 @@
-"""A logits processor for vLLM 0.10 and later, which finds it by the entry point `vllm.logits_processors`.
+"""A logits processor for vLLM from 0.10 on, which finds it by the entry point `vllm.logits_processors`.
+
+It is one of the interface of vLLM's first model runner (`update_state`, `apply`). Where a server uses the second one, which takes
+processors of another interface, start it with the first.
 
 A request asks for a policy in its extra arguments; all others are left alone:
 

@@ -18,6 +18,11 @@ impl Findings {
         self.0.extend(others.0.iter().cloned());
     }
 
+    /// JSON objects, one a line, as `motet check --format json` prints them.
+    pub(crate) fn lines(&self) -> String {
+        self.rendered(render::json).concat()
+    }
+
     fn rendered(&self, one: impl Fn(&[Diagnostic], &Sources) -> String) -> Vec<String> {
         self.0.iter().map(|part| one(&part.0, &part.1)).collect()
     }
@@ -34,18 +39,19 @@ impl DiagnosticSink for Findings {
 #[pymethods]
 impl Findings {
     /// JSON objects, one a line, as `motet check --format json` prints them.
-    pub(crate) fn json(&self) -> String {
-        self.rendered(render::json).concat()
+    fn json(&self, py: Python<'_>) -> String {
+        py.detach(|| self.lines())
     }
 
     /// Text for people with the source around each span, in up to `width` columns.
-    fn human(&self, width: usize, color: bool) -> String {
+    fn human(&self, py: Python<'_>, width: usize, color: bool) -> String {
         let color = if color { ColorChoice::On } else { ColorChoice::Off };
-        self.rendered(|found, sources| render::human(found, sources, color, width)).join("\n")
+        let text = |found: &[Diagnostic], sources: &Sources| render::human(found, sources, color, width);
+        py.detach(|| self.rendered(text).join("\n"))
     }
 
     /// Short sentences for the next prompt of a language model, the most useful first.
-    fn llm(&self) -> String {
-        self.rendered(render::llm).concat()
+    fn llm(&self, py: Python<'_>) -> String {
+        py.detach(|| self.rendered(render::llm).concat())
     }
 }

@@ -32,29 +32,30 @@ impl Graph {
     }
 
     /// The graph in its versioned JSON encoding.
-    fn json(&self) -> String {
-        motet::graph::encode(&self.graph)
+    fn json(&self, py: Python<'_>) -> String {
+        py.detach(|| motet::graph::encode(&self.graph))
     }
 
     /// The graph as an indented tree with guards, effects and durations.
-    fn tree(&self) -> String {
-        draw::text(&self.graph)
+    fn tree(&self, py: Python<'_>) -> String {
+        py.detach(|| draw::text(&self.graph))
     }
 
     /// The graph as a Mermaid flowchart.
-    fn mermaid(&self) -> String {
-        draw::mermaid(&self.graph)
+    fn mermaid(&self, py: Python<'_>) -> String {
+        py.detach(|| draw::mermaid(&self.graph))
     }
 
     /// The graph for Graphviz.
-    fn dot(&self) -> String {
-        draw::dot(&self.graph)
+    fn dot(&self, py: Python<'_>) -> String {
+        py.detach(|| draw::dot(&self.graph))
     }
 
     /// The policy as text or as JSON.
-    fn policy_as(&self, syntax: &str) -> PyResult<String> {
-        let library = self.opened.session.library();
-        document::write(&self.parsed, self.chosen.as_deref(), library, syntax_of(syntax)?).map_err(wrong)
+    fn policy_as(&self, py: Python<'_>, syntax: &str) -> PyResult<String> {
+        let (library, syntax) = (self.opened.session.library(), syntax_of(syntax)?);
+        let written = py.detach(|| document::write(&self.parsed, self.chosen.as_deref(), library, syntax));
+        written.map_err(wrong)
     }
 }
 

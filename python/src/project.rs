@@ -233,7 +233,7 @@ impl Project {
         let sources = opened.sources(Source::new("plan.motet", planned.text.as_str()));
         findings.report(&planned.compiled.diagnostics, &sources);
         let Some(graph) = planned.compiled.graph else {
-            return Err(raised(py, "PlanError", ("the plan does not compile", findings.json())));
+            return Err(raised(py, "PlanError", ("the plan does not compile", findings.lines())));
         };
         let graph = Graph { graph, parsed: planned.parsed, opened, chosen: None };
         Ok((planned.text, notes, graph, findings))
@@ -254,5 +254,5 @@ fn no_plan(py: Python<'_>, error: &PlanError, opened: &ProjectSession) -> PyErr 
     let sources = opened.sources(Source::new("plan.motet", ""));
     let mut findings = Findings::default();
     findings.report(diagnostics, &sources);
-    raised(py, "PlanError", (format!("no plan: {error}"), findings.json()))
+    raised(py, "PlanError", (format!("no plan: {error}"), findings.lines()))
 }

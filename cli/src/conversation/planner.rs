@@ -8,6 +8,7 @@ use motet_planner::model::{self, ModelEvent, ModelObserver, ModelPlanner, Role, 
 use motet_planner::runtime_check::CheckMode;
 use motet_planner::{Builtin, BuiltinBeside, PlanRequest, Planner, RemainingSteps, Wait};
 use motet_project::files::read_small;
+use motet_syntax::render::is_steering;
 use serde_json::json;
 
 use super::flags::{ConversationArgs, ModelArgs};
@@ -15,7 +16,7 @@ use super::record::ConversationRecord;
 use crate::error::CliError;
 use crate::flags::{CarrierArg, OutputFormat, Speed};
 use crate::interrupt::is_interrupted;
-use crate::output::{Colors, note};
+use crate::output::{Colors, note, styled_note};
 
 /// Planner of the flags.
 pub(super) fn planner(
@@ -132,7 +133,7 @@ impl ModelLog {
         if std::mem::take(&mut self.in_line) {
             note("");
         }
-        note(&self.paint(color, &printable(text)));
+        styled_note(&self.paint(color, &printable(text)));
     }
 
     fn paint(&self, color: &str, text: &str) -> String {
@@ -223,7 +224,7 @@ impl ModelObserver for ModelLog {
     }
 }
 
-/// Text of a model without control characters.
+/// Text of a model without what would steer a terminal.
 pub(super) fn printable(text: &str) -> String {
-    text.chars().filter(|letter| !letter.is_control() || *letter == '\n').collect()
+    text.chars().filter(|letter| !is_steering(*letter) || *letter == '\n').collect()
 }

@@ -112,3 +112,20 @@ fn the_exchange_of_a_request_is_written_and_read_again() {
     let place = place.file("again.txt", &ran.stdout);
     place.run(&format!("dialog again.txt {WORLD}")).check(0, &["out:handover(coke, user)"]);
 }
+
+#[test]
+fn what_steers_a_terminal_is_escaped_in_refusals() {
+    let place = Place::new("dialog_steering")
+        .file("bad.txt", "<user> a\n<robot> fly\u{1b}[2J to \u{9b}moon\u{202e}\n");
+    for line in [
+        format!("dialog bad.txt {WORLD}"),
+        format!("plan --goal on(mug_1\u{1b}[2J\u{9b}\u{202e},counter) {WORLD}"),
+    ] {
+        let ran = place.run(&line);
+        assert_ne!(ran.code, Some(0), "{ran:#?}");
+        for text in [&ran.stdout, &ran.stderr] {
+            assert!(!text.contains(['\u{1b}', '\u{9b}', '\u{202e}']), "{line:?}: {text:?}");
+        }
+        assert!(ran.stderr.contains("\\u{1b}"), "{ran:#?}");
+    }
+}
