@@ -305,7 +305,7 @@ class Cases:
         assert get("/journal/" + "0" * 24)[0] == 404 and get(place, host="evil.example:80")[0] == 404
         assert get("/journal/r1/never", b"")[0] == 502
         # A question is answered and a run is stopped by the page.
-        self.send_policy("r3", "page", 'let one = ask("Which way?") say(one) go(user) go(counter) go(user)')
+        self.send_policy("r3", "page", 'let one = ask("Which way?") say(one) %s' % ("go(user) go(counter) " * 12))
         asked = self.question("r3")
         assert get("/answer/r3", json.dumps({"question": asked, "text": ""}).encode())[0] == 422
         if self.args.page:
