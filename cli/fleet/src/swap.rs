@@ -41,8 +41,13 @@ impl Agent {
             if let Some(fields) = told.as_object_mut() {
                 fields.insert("id".to_owned(), json!(id));
             }
-            let told = within_message(told).to_string().into();
-            results.put(&self.robot, told).await.map_err(|error| error.to_string())?;
+            let told = within_message(told).to_string();
+            let put = results.put(&self.robot, told.clone().into()).await;
+            if is_marked {
+                // The operator waits, and the disk does not.
+                self.swaps().write(&id, told.as_bytes())?;
+            }
+            put.map_err(|error| error.to_string())?;
             if is_marked {
                 self.swaps().write(&format!("{id}.told"), b"")?;
             }
@@ -81,7 +86,6 @@ impl Agent {
             Ok(told) => told,
             Err(why) => json!({"problem": why}),
         };
-        swaps.write(&id, told.to_string().as_bytes())?;
         Ok(Some((id, told)))
     }
 
