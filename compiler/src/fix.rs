@@ -1,7 +1,7 @@
 //! Automatic fixes: each is tried in memory, and kept only if the document then checks better.
 //!
 //! Above the stages: it reads their findings, edits the document and checks it again. Guarded by
-//! `tests/tests/fix.rs`.
+//! `tests/tests/it/fix.rs`.
 
 use motet_syntax::{Code, Diagnostic, FileId, Fix, Parsed, Severity, Source};
 

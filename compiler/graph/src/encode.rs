@@ -12,8 +12,7 @@ use std::borrow::Cow;
 use std::fmt;
 use thiserror::Error;
 
-/// Version of the encoding: the one that is written, and the only one that is read. 5 since handlers name
-/// their failures, and a policy has a result and a goal.
+/// Version of the encoding: the one that is written, and the only one that is read.
 pub const VERSION: u32 = 6;
 /// Size limit of a document in bytes.
 pub const MAX_BYTES: usize = 64 * 1024 * 1024;

@@ -6,7 +6,7 @@
 //! no motion is called feasible without a witness, and none infeasible unless that is proven or its search
 //! ended without a result. The engine checks deferred motions at run time.
 //!
-//! Guarded by `compiler/tests/compiler/feasibility.rs` and `tests/tests/dynamic.rs`.
+//! Guarded by `compiler/tests/compiler/feasibility.rs` and `tests/tests/it/dynamic.rs`.
 
 mod domain;
 pub(crate) mod errors;

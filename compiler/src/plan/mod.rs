@@ -6,7 +6,7 @@
 //! (`estimate`).
 //!
 //! A plan is a proposal: its user writes a policy from it and has that checked like any other. Guarded by
-//! `tests/tests/planning.rs` and `tests/tests/planbench.rs`.
+//! `tests/tests/it/planning.rs` and `eval/tests/it/planbench.rs`.
 
 pub(crate) mod achievers;
 mod estimate;

@@ -5,7 +5,8 @@
 //! Its cost depends on the facts that a policy changes, and not on the size of the environment: facts are
 //! written on a trail and rolled back at forks.
 //!
-//! Guarded by `tests/spec/prover.md`, the oracle in `tests/tests/oracle.rs` and `tests/tests/promises.rs`.
+//! Guarded by `tests/spec/prover.md`, the oracle in `tests/tests/it/oracle.rs` and
+//! `tests/tests/it/promises.rs`.
 
 mod assume;
 mod call;

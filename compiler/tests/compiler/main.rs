@@ -1,8 +1,8 @@
 //! Tests of the compiler at its public boundary.
 //!
 //! The prover is guarded by `tests/spec/prover.md`, lints by `tests/spec/intent.md`, fixes by
-//! `tests/tests/fix.rs`, plans by `tests/tests/planning.rs`, and incremental checks by the properties of
-//! `runtime/decode`.
+//! `tests/tests/it/fix.rs`, plans by `tests/tests/it/planning.rs`, and incremental checks by the properties
+//! of `runtime/decode`.
 
 #![allow(
     clippy::unwrap_used,
