@@ -68,8 +68,9 @@ class Driver:
         self.lock = threading.Lock()
         if greet:
             fails = {"home": ["blocked"], "go": ["unreachable", "blocked"], "detect": ["not_found", "ambiguous"], "say": []}
-            self.welcome = self.call("hello", protocol=2, run=run, resumed=False, at=0.0, robot=robot, policy="test",
-                                     primitives=[{"name": name, "fails": kinds} for name, kinds in fails.items()])
+            primitives = [{"name": name, "fails": kinds} for name, kinds in fails.items() if name != "detect"]
+            primitives.append({"name": "detect", "result": "Object", "fails": fails["detect"]})
+            self.welcome = self.call("hello", protocol=2, run=run, resumed=False, at=0.0, robot=robot, policy="test", primitives=primitives)
 
     def read(self):
         output, bytes_of = self.process.stdout.fileno(), b""
