@@ -120,33 +120,38 @@ pub(crate) fn replace_with<T>(
     if old.as_ref().is_some_and(|old| old.permissions().readonly()) {
         return Err(cannot(io::ErrorKind::PermissionDenied.into()));
     }
-    let mut beside = target.clone().into_os_string();
-    beside.push(format!(".{}.partial", std::process::id()));
-    let file = File::create_new(&beside).map_err(cannot)?;
-    let written = write(&file).and_then(|written| {
+    put_in_place(&target, &mut File::options(), |file| {
+        let written = write(file)?;
         let permissions = old.map_or(Ok(()), |old| file.set_permissions(old.permissions()));
-        let replaced = permissions.and_then(|()| file.sync_all()).and_then(|()| fs::rename(&beside, &target));
+        permissions.map(|()| written).map_err(cannot)
+    })
+}
+
+/// Writes a new file that only its owner reads, in place of an old one or of a link.
+pub(crate) fn replace_secret(path: &Path, text: &str) -> Result<(), CliError> {
+    let cannot = |source| CliError::Write { path: path.to_owned(), source };
+    let mut options = File::options();
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
+    put_in_place(path, &mut options, |mut file| file.write_all(text.as_bytes()).map_err(cannot))
+}
+
+/// Writes a new file beside `target` and then puts it in its place.
+fn put_in_place<T>(
+    target: &Path,
+    options: &mut fs::OpenOptions,
+    write: impl FnOnce(&File) -> Result<T, CliError>,
+) -> Result<T, CliError> {
+    let cannot = |source| CliError::Write { path: target.to_owned(), source };
+    let mut beside = target.to_owned().into_os_string();
+    beside.push(format!(".{}.partial", std::process::id()));
+    let file = options.write(true).create_new(true).open(&beside).map_err(cannot)?;
+    let written = write(&file).and_then(|written| {
+        let replaced = file.sync_all().and_then(|()| fs::rename(&beside, target));
         replaced.map(|()| written).map_err(cannot)
     });
     written.inspect_err(|_| {
         let _ = fs::remove_file(&beside);
-    })
-}
-
-/// Writes a new file that only its owner reads, in place of an old one.
-pub(crate) fn replace_secret(path: &Path, text: &str) -> Result<(), CliError> {
-    let cannot = |source| CliError::Write { path: path.to_owned(), source };
-    let mut beside = path.to_owned().into_os_string();
-    beside.push(format!(".{}.partial", std::process::id()));
-    let mut options = File::options();
-    options.write(true).create_new(true);
-    #[cfg(unix)]
-    std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
-    let mut file = options.open(&beside).map_err(cannot)?;
-    let written = file.write_all(text.as_bytes()).and_then(|()| fs::rename(&beside, path));
-    written.map_err(|source| {
-        let _ = fs::remove_file(&beside);
-        cannot(source)
     })
 }
 

@@ -192,19 +192,20 @@ impl Agent {
     async fn carry_out(&self, message: &Message) -> Result<(), String> {
         let order = match verify(&message.payload, &self.robot) {
             Ok(order) => order,
-            Err(why) => return self.refuse(message, &why).await,
+            Err(why) => return self.refuse(message, None, &why).await,
         };
         let words = &order.words;
         let folder = self.folder(&words.id);
         let before = folder.order();
         if before.as_ref().is_some_and(|before| before.words.what != words.what) {
-            return self.refuse(message, &format!("the id `{}` is that of another order", words.id)).await;
+            let why = format!("the id `{}` is that of another order", words.id);
+            return self.refuse(message, Some(&order), &why).await;
         }
         let has_begun = folder.result().is_some() || folder.has_begun() || folder.is_running();
         if !self.trust.now().has(&order.key) {
             // A run that has begun is not left to itself: it is followed while it stops.
             if !has_begun || before.as_ref().is_none_or(|before| before.key != order.key) {
-                return self.refuse(message, UNTRUSTED).await;
+                return self.refuse(message, Some(&order), UNTRUSTED).await;
             }
             if folder.result().is_none() {
                 folder.want_stop(REVOKED)?;
@@ -212,7 +213,7 @@ impl Agent {
         }
         // An order whose time is over may have begun before: then it goes on.
         if !has_begun && let Err(late) = words.check_time() {
-            return self.refuse(message, &late).await;
+            return self.refuse(message, Some(&order), &late).await;
         }
         let folder =
             if before.is_some() { folder } else { OrderFolder::create(&self.root.join("orders"), &order)? };
@@ -234,19 +235,16 @@ impl Agent {
         OrderFolder(self.root.join("orders").join(order))
     }
 
-    /// Refuses an order of which nothing has moved.
-    async fn refuse(&self, message: &Message, why: &str) -> Result<(), String> {
+    /// Refuses an order of which nothing has moved; `order` is what the message says, if its signature is right.
+    async fn refuse(&self, message: &Message, order: Option<&SignedWords>, why: &str) -> Result<(), String> {
         eprintln!("motet-fleet: an order is refused: {}", why.escape_debug());
         if let Some((id, digest)) = claimed(&message.payload) {
             let result = json!({"state": "refused", "why": why});
             let folder = self.folder(&id);
-            let is_own = |before: &SignedWords| {
-                verify(&message.payload, &self.robot).is_ok_and(|order| order == *before)
-            };
             match folder.order() {
                 None => self.tell_result(&id, &id, &digest, &result).await?,
                 // It was taken before, and the agent was ended before it began.
-                Some(before) if is_own(&before) && folder.result().is_none() => {
+                Some(before) if order == Some(&before) && folder.result().is_none() => {
                     folder.write("result.json", result.to_string().as_bytes())?;
                     self.tell_result(&id, &id, &digest, &result).await?;
                 }

@@ -56,7 +56,7 @@ impl Results {
     }
 }
 
-/// What the page shows of a result. Its robot and order are those of its place: a robot writes no other.
+/// Part of a result that the page shows. Its robot and order are those of its place: a robot writes no other.
 fn shown(key: &str, at: i64, value: &[u8]) -> Value {
     let result: Value = serde_json::from_slice(value).unwrap_or_default();
     let short = |text: &str| text.chars().take(LETTERS).collect::<String>();

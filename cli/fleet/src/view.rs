@@ -21,11 +21,11 @@ use tokio::sync::Semaphore;
 
 /// The page. It has no content of others: names and texts of robots are set as text.
 const PAGE: &str = include_str!("fleet.html");
-/// What a browser may load: nothing but the page itself.
+/// Policy of the page: a browser loads nothing but the page itself.
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; \
                       connect-src 'self'; img-src data:; base-uri 'none'; form-action 'none'; \
                       frame-ancestors 'none'";
-/// What the page of a journal may do, beside its own policy: it is not of the origin of this page.
+/// Policy of the page of a journal, beside its own: it is not of the origin of this page.
 const JOURNAL_POLICY: &str = "sandbox allow-scripts; frame-ancestors 'none'";
 /// Most bytes of a journal that is shown, and pages of journals that are kept.
 const MOST_BYTES: usize = 64 * 1024 * 1024;

@@ -99,6 +99,8 @@ impl Entity {
     }
 }
 
-fn distance(one: [f64; 3], other: [f64; 3]) -> f64 {
+/// Distance between two points in m.
+#[must_use]
+pub fn distance(one: [f64; 3], other: [f64; 3]) -> f64 {
     one.iter().zip(other).map(|(one, other)| (one - other).powi(2)).sum::<f64>().sqrt()
 }

@@ -177,10 +177,7 @@ impl Driver {
                 for thing in things {
                     if let Some(id) = &thing.id {
                         self.world.note(thing);
-                        let pose = thing
-                            .pose
-                            .map(|pose| crate::tf::Transform { xyz: pose.xyz, quaternion: pose.quaternion });
-                        self.world.saw(id, pose);
+                        self.world.saw(id, thing.pose.map(Into::into));
                     }
                 }
                 self.detections.clone_from(things);

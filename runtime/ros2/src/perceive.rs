@@ -66,7 +66,7 @@ impl CameraFeed {
     ///
     /// # Errors
     ///
-    /// What is missing, too old or wrong.
+    /// The part that is missing, too old or wrong.
     pub(crate) fn look(
         &self,
         camera: &CameraTopics,
@@ -115,7 +115,7 @@ impl CameraFeed {
     ///
     /// # Errors
     ///
-    /// What is missing, too old or wrong.
+    /// The part that is missing, too old or wrong.
     fn depth_view(
         &self,
         at: f64,

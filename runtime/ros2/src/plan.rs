@@ -223,8 +223,7 @@ pub(crate) fn written(value: &Value) -> String {
         }
         Value::Pose(pose) => {
             let [x, y, z] = pose.xyz;
-            let yaw = crate::tf::Transform { xyz: pose.xyz, quaternion: pose.quaternion }.planar().yaw;
-            format!("pose({x:.4} m, {y:.4} m, {z:.4} m, {yaw:.5} rad)")
+            format!("pose({x:.4} m, {y:.4} m, {z:.4} m, {:.5} rad)", pose.yaw())
         }
         other => other.to_string(),
     }

@@ -124,7 +124,7 @@ pub(crate) enum Finish {
 /// A goal of the host.
 pub(crate) struct Task {
     pub(crate) command: Arc<Command>,
-    /// What the primitive declares.
+    /// Declaration of the primitive.
     called: CalledPrimitive,
     steps: VecDeque<Step>,
     moves: VecDeque<Move>,

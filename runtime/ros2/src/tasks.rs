@@ -81,7 +81,7 @@ enum Said {
     Event(Uuid, String),
     /// Page at which it takes answers.
     Page(Uuid, Page),
-    /// What became of an answer to a question.
+    /// Fate of an answer to a question.
     Answered(String, Result<(), String>),
     Ended(Uuid, i32, String),
 }

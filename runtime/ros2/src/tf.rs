@@ -35,6 +35,12 @@ pub(crate) struct Transform {
     pub(crate) quaternion: [f64; 4],
 }
 
+impl From<motet_graph::Pose> for Transform {
+    fn from(pose: motet_graph::Pose) -> Self {
+        Self { xyz: pose.xyz, quaternion: pose.quaternion }
+    }
+}
+
 impl Transform {
     /// The transform that changes nothing.
     pub(crate) const IDENTITY: Self = Self { xyz: [0.0; 3], quaternion: [0.0, 0.0, 0.0, 1.0] };
@@ -88,9 +94,7 @@ impl Transform {
     /// The pose in the plane.
     #[must_use]
     pub(crate) fn planar(self) -> Planar {
-        let [x, y, z, w] = self.quaternion;
-        let yaw = (2.0 * (w * z + x * y)).atan2(1.0 - 2.0 * (y * y + z * z));
-        Planar { x: self.xyz[0], y: self.xyz[1], yaw }
+        Planar { x: self.xyz[0], y: self.xyz[1], yaw: self.pose().yaw() }
     }
 
     fn inverse(self) -> Self {

@@ -5,7 +5,7 @@ mod sighting;
 use crate::tf::Transform;
 use motet_graph::Value;
 use motet_host::remote::protocol::DetectedThing;
-use motet_robots::scene::{Placement, Scene};
+use motet_robots::scene::{Placement, Scene, distance};
 use motet_runtime::{Pattern, Query};
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::{Duration, Instant};
@@ -285,10 +285,6 @@ fn pattern(arg: &Pattern) -> Option<Option<&str>> {
         Pattern::Is(Value::Entity(id) | Value::Case(id)) => Some(Some(id)),
         Pattern::Is(_) => None,
     }
-}
-
-fn distance(one: [f64; 3], other: [f64; 3]) -> f64 {
-    one.iter().zip(other).map(|(one, other)| (one - other).powi(2)).sum::<f64>().sqrt()
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 use indexmap::IndexMap;
 use motet_robots::scene::{
-    Entity, EntityShape, MOST_LABEL, Outline, PlacedOutline, Placement, SURE, Scene, clean_label,
+    Entity, EntityShape, MOST_LABEL, Outline, PlacedOutline, Placement, SURE, Scene, clean_label, distance,
     numbered_id, recognise,
 };
 use motet_runtime::{Detection, Time, ToldThing};
@@ -285,10 +285,6 @@ fn half_height(entity: &Entity) -> f64 {
         Some(EntityShape::Capsule { radius, height }) => radius + height / 2.0,
         Some(EntityShape::Mesh { .. }) | None => 0.0,
     }
-}
-
-fn distance(one: [f64; 3], other: [f64; 3]) -> f64 {
-    one.iter().zip(other).map(|(one, other)| (one - other).powi(2)).sum::<f64>().sqrt()
 }
 
 /// True for an id of a driver that a policy can write and that means nothing else.

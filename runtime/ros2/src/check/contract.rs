@@ -10,7 +10,7 @@ use motet_syntax::unit::{Dimension, Unit};
 /// Failure in which every primitive may end.
 const TIMEOUT: &str = "timeout";
 
-/// What is wrong in the steps of a primitive, each with its place. `kinds` are those of entities.
+/// Findings about the steps of a primitive, each with its place. `kinds` are those of entities.
 pub(super) fn findings(
     binding: &Binding,
     declared: &PrimitiveDecl,
@@ -31,7 +31,7 @@ pub(super) fn findings(
     steps.iter().enumerate().flat_map(of_step).collect()
 }
 
-/// What is wrong in the goals of the hand.
+/// Finding about the goals of the hand.
 pub(super) fn of_gripper(binding: &Binding) -> Option<String> {
     let gripper = binding.gripper.as_ref()?;
     let goals = [Some(&gripper.open), Some(&gripper.close), gripper.width.as_ref()];
@@ -124,7 +124,7 @@ fn of_param(
     Some(format!("`{{{text}}}`: `{}` has neither a frame nor a unit", param.name.text))
 }
 
-/// What is wrong with a unit of a type.
+/// Finding about a unit of a type.
 fn wrong_unit(unit: &str, ty: &str) -> Option<String> {
     let dimension = Dimension::of_type(ty);
     let fits = |unit: Unit| dimension.is_none_or(|wanted| wanted == unit.dimension());

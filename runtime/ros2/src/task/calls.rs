@@ -113,9 +113,7 @@ impl Task {
                 (Argument::Entity(id), Some("pose")) => {
                     Some(around.world.pose(id).ok_or_else(|| format!("nobody knows where `{id}` is"))?)
                 }
-                (Argument::Pose(pose), None) => {
-                    Some(Transform { xyz: pose.xyz, quaternion: pose.quaternion })
-                }
+                (Argument::Pose(pose), None) => Some(Transform::from(*pose)),
                 (Argument::Number(number), None) if frame.is_some() => {
                     return in_unit(*number, frame.unwrap_or_default());
                 }

@@ -111,7 +111,7 @@ impl Task {
             ("reach", Some(Argument::Entity(id))) => {
                 around.world.pose(id).ok_or_else(|| format!("nobody knows where `{id}` is"))?
             }
-            ("reach", Some(Argument::Pose(pose))) => Transform { xyz: pose.xyz, quaternion: pose.quaternion },
+            ("reach", Some(Argument::Pose(pose))) => Transform::from(*pose),
             _ => return Err(format!("`{query}` says no pose of the hand")),
         };
         let Some(link) = bound.link.as_ref().filter(|_| !bound.grasps.is_empty()) else {

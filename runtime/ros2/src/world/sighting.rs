@@ -1,10 +1,11 @@
 //! Detections as things of the room: those without an id get the one of the thing that they are of.
 
 use super::World;
-use crate::tf::Transform;
 use motet_graph::Pose;
 use motet_host::remote::protocol::DetectedThing;
-use motet_robots::scene::{Entity, Placement, SURE, clean_label, normal, numbered_id, recognise, singular};
+use motet_robots::scene::{
+    Entity, Placement, SURE, clean_label, distance, normal, numbered_id, recognise, singular,
+};
 use motet_runtime::{ToldSupport, ToldThing};
 use smol_str::SmolStr;
 use std::collections::BTreeSet;
@@ -74,10 +75,7 @@ impl World {
                 self.seen.remove(&oldest);
             }
         }
-        let placement = pose.map(|pose| {
-            let transform = Transform { xyz: pose.xyz, quaternion: pose.quaternion };
-            Placement { xyz: pose.xyz, rpy: [0.0, 0.0, transform.planar().yaw] }
-        });
+        let placement = pose.map(|pose| Placement { xyz: pose.xyz, rpy: [0.0, 0.0, pose.yaw()] });
         self.scene.entities.insert(id.clone(), Entity::detected(id.clone(), label, placement, extent));
         self.places.insert(id.to_string(), Place::Unknown);
         self.seen.insert(id.to_string(), std::time::Instant::now());
@@ -88,10 +86,7 @@ impl World {
     pub(crate) fn told(&mut self, thing: &ToldThing) {
         match (&thing.label, self.scene.entities.contains_key(&thing.id)) {
             (Some(label), false) => self.add(thing.id.clone(), &clean_label(label), thing.pose, None),
-            (Some(_), true) => {
-                let pose = thing.pose.map(|pose| Transform { xyz: pose.xyz, quaternion: pose.quaternion });
-                self.saw(&thing.id, pose);
-            }
+            (Some(_), true) => self.saw(&thing.id, thing.pose.map(Into::into)),
             (None, _) => {}
         }
         if let Some(pose) = thing.pose {
@@ -112,7 +107,7 @@ impl World {
         let of_scene = || self.scene.entities.get(id.as_str())?.pose.map(|pose| pose.xyz);
         let before = self.reported.get(id).copied().or_else(of_scene);
         let is_held = self.places.get(id) == Some(&Place::Hand);
-        let is_elsewhere = before.is_none_or(|before| super::distance(before, pose.xyz) > ELSEWHERE);
+        let is_elsewhere = before.is_none_or(|before| distance(before, pose.xyz) > ELSEWHERE);
         if thing.confidence >= SURE && is_elsewhere && !is_held {
             self.tell(thing.clone());
         } else if let Some(before) = before {
@@ -218,10 +213,7 @@ mod tests {
         let see = |dy: f64| {
             let thing = DetectedThing { id: Some("mug_1".to_owned()), ..seen("mug", [x, y + dy, z], 0.9) };
             world.note(&thing);
-            world.saw(
-                "mug_1",
-                thing.pose.map(|pose| Transform { xyz: pose.xyz, quaternion: pose.quaternion }),
-            );
+            world.saw("mug_1", thing.pose.map(Into::into));
             world.take_news().len()
         };
         assert_eq!([0.02, 0.06, 0.1, 0.12, 0.3].map(see), [0, 0, 1, 0, 1]);
