@@ -235,7 +235,8 @@ impl Agent {
         OrderFolder(self.root.join("orders").join(order))
     }
 
-    /// Refuses an order of which nothing has moved; `order` is what the message says, if its signature is right.
+    /// Refuses an order of which nothing has moved. `order` is what the message says if its signature is
+    /// right.
     async fn refuse(&self, message: &Message, order: Option<&SignedWords>, why: &str) -> Result<(), String> {
         eprintln!("motet-fleet: an order is refused: {}", why.escape_debug());
         if let Some((id, digest)) = claimed(&message.payload) {

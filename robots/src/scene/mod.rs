@@ -28,7 +28,9 @@ pub use errors::CODES;
 pub use model::{normal, *};
 pub use outline::{Outline, PLACED_BESIDE_M, PLACED_NEAR_M, PLACED_TOLERANCE_M, PlacedOutline};
 pub use read::read;
-pub use recognition::{MOST_LABEL, RECOGNISED_M, SURE, clean_label, distance, numbered_id, recognise};
+pub use recognition::{
+    MOST_LABEL, MOST_NEW, RECOGNISED_M, SURE, clean_label, distance, numbered_id, recognise,
+};
 pub use serving::{NEAR_M, ServedKind, ServingReach, person_gap, serving_gap};
 pub use wire::schema;
 pub use write::write;

@@ -11,6 +11,8 @@ use smol_str::{SmolStr, format_smolstr};
 pub const SURE: f64 = 0.5;
 /// Greatest distance in m at which a detection without an id may be a thing with its label.
 pub const RECOGNISED_M: f64 = 0.3;
+/// The most things that the scene lacks and somebody keeps.
+pub const MOST_NEW: usize = 32;
 /// The most characters of a label, and of an id that a driver gives.
 pub const MOST_LABEL: usize = 40;
 /// Category of every thing that the scene lacks: `the blue thing` is one of them.

@@ -7,8 +7,8 @@ use std::collections::BTreeSet;
 
 use indexmap::IndexMap;
 use motet_robots::scene::{
-    Entity, EntityShape, MOST_LABEL, Outline, PlacedOutline, Placement, SURE, Scene, clean_label, distance,
-    numbered_id, recognise,
+    Entity, EntityShape, MOST_LABEL, MOST_NEW, Outline, PlacedOutline, Placement, SURE, Scene, clean_label,
+    distance, numbered_id, recognise,
 };
 use motet_runtime::{Detection, Time, ToldThing};
 use motet_stdlib::lang::{entities, kinds};
@@ -20,8 +20,6 @@ const ERROR_M: f64 = 0.01;
 const SIGMAS: f64 = 3.0;
 /// Greatest distance in m between the bottom of a thing and what it stands on.
 const CONTACT_M: f64 = 0.05;
-/// The most things that the scene lacks.
-const MOST_NEW: usize = 32;
 
 /// Things that were seen since the scene was recorded.
 #[derive(Clone, Debug, Default)]

@@ -4,7 +4,7 @@ use super::World;
 use motet_graph::Pose;
 use motet_host::remote::protocol::DetectedThing;
 use motet_robots::scene::{
-    Entity, Placement, SURE, clean_label, distance, normal, numbered_id, recognise, singular,
+    Entity, MOST_NEW, Placement, SURE, clean_label, distance, normal, numbered_id, recognise, singular,
 };
 use motet_runtime::{ToldSupport, ToldThing};
 use smol_str::SmolStr;
@@ -12,8 +12,6 @@ use std::collections::BTreeSet;
 
 use super::Place;
 
-/// The most things that the scene lacks.
-const MOST_NEW: usize = 32;
 /// Distance in m from where the host was told that a thing is, from which on it is told again.
 const ELSEWHERE: f64 = 0.08;
 /// The most detections that wait to be reported.
