@@ -67,10 +67,12 @@ class Driver:
         threading.Thread(target=self.beat, daemon=True).start()
         self.lock = threading.Lock()
         if greet:
-            fails = {"home": ["blocked"], "go": ["unreachable", "blocked"], "detect": ["not_found", "ambiguous"], "say": []}
-            primitives = [{"name": name, "fails": kinds} for name, kinds in fails.items() if name != "detect"]
-            primitives.append({"name": "detect", "result": "Object", "fails": fails["detect"]})
-            self.welcome = self.call("hello", protocol=2, run=run, resumed=False, at=0.0, robot=robot, policy="test", primitives=primitives)
+            found = ["not_found", "ambiguous"]
+            fails = {"home": ["blocked"], "go": ["unreachable", "blocked"], "detect": found, "say": [], "detect_all": [],
+                     "search": [*found, "unreachable", "blocked"], "locate": ["not_found"], "choose": ["refused", "ambiguous"]}
+            results = {"detect": "Object", "detect_all": "List<Object>", "search": "Object", "locate": "Pose", "choose": "Object"}
+            self.welcome = self.call("hello", protocol=2, run=run, resumed=False, at=0.0, robot=robot, policy="test",
+                                     primitives=[{"name": name, "fails": kinds, "result": results.get(name)} for name, kinds in fails.items()])
 
     def read(self):
         output, bytes_of = self.process.stdout.fileno(), b""

@@ -23,7 +23,7 @@ export MOTET_ROS2="$target/ros2/debug/motet-ros2"
 export PATH="$venv/bin:$target/ros2/debug:$PATH" PYTHONPATH="$root/runtime/mujoco:."
 pytest=("$venv/bin/python" -m pytest -p no:cacheprovider -q -rs)
 case "$which" in
-    quick) ./netns.sh "${pytest[@]}" test_driver.py test_layouts.py test_tasks.py ;;
+    quick) ./netns.sh "${pytest[@]}" test_driver.py test_steps.py test_layouts.py test_tasks.py ;;
     fetch) ./netns.sh "${pytest[@]}" test_physics.py -k fetch_mug ;;
     physics) ./netns.sh "${pytest[@]}" test_physics.py ;;
     soak)
