@@ -6,9 +6,10 @@
 //! - `console` holds commands after `$ ` and what each prints. A line `…` stands for any lines, `…` in a
 //!   line for any text.
 //!   A command that must fail ends with `# exits with N`;
-//! - any other block is text, unless a comment before it names a file that it becomes: `<!-- file:
-//!   my_robot/robot.toml -->`.
+//! - `motet` must be in canonical form, `json` and `toml` well formed, and each line of `jsonl` too;
+//! - any other block is text.
 //!
+//! A block becomes the file that a comment before it names: `<!-- file: my_robot/robot.toml -->`.
 //! `<!-- not run: REASON -->` before a block keeps it from running, and `<!-- if: COMMAND -->` where the
 //! command fails, such as one that looks for a package. All blocks of a page share a folder, which begins
 //! with a copy of `examples/` and a link to `python/`.
@@ -228,6 +229,7 @@ fn run_blocks(
                 let path = folder.join(name);
                 std::fs::create_dir_all(path.parent().unwrap_or(&folder)).map_err(fail)?;
                 std::fs::write(&path, &block.text).map_err(fail)?;
+                failed.extend(malformed(&block, &folder, motet)?.map(|why| format!("{place}: {why}")));
             }
             (Some(Directive::NotRun(reason)), _) => {
                 println!("{place}: not run: {reason}");
@@ -252,10 +254,30 @@ fn run_blocks(
                     }
                 }
             }
-            (None | Some(Directive::If(_)), _) => {}
+            (None | Some(Directive::If(_)), _) => {
+                failed.extend(malformed(&block, &folder, motet)?.map(|why| format!("{place}: {why}")));
+            }
         }
     }
     Ok((ran, skipped, failed))
+}
+
+/// The reason why a policy or a document is not well formed, if its language can be read.
+fn malformed(block: &Block, folder: &Path, motet: &Path) -> Result<Option<String>, String> {
+    let json =
+        |text: &str| serde_json::from_str::<serde_json::Value>(text).err().map(|error| error.to_string());
+    Ok(match block.language.as_str() {
+        "motet" => {
+            let path = folder.join(format!("line_{}.motet", block.line));
+            std::fs::write(&path, &block.text).map_err(|error| format!("{}: {error}", path.display()))?;
+            let (output, code) = shell(&format!("motet fmt --check '{}'", path.display()), folder, motet)?;
+            (code != 0).then(|| format!("not in canonical form\n{output}"))
+        }
+        "json" => json(&block.text),
+        "jsonl" => block.text.lines().find_map(json),
+        "toml" => toml::from_str::<toml::Table>(&block.text).err().map(|error| error.to_string()),
+        _ => None,
+    })
 }
 
 /// The commands of a `console` block, each with its expected output.
