@@ -18,8 +18,9 @@
 //!   goal.
 //! - `mutations` takes no file: it changes the examples, and exits with 0 if at most 2 % of what the check
 //!   passes without a word fails by a need that was not listed.
-//! - `soundness N [--seed S]` makes N random policies, runs what the check accepts in random worlds, and
-//!   exits with 0 if every need that is proven, or that a guard has passed, holds.
+//! - `soundness N|FILE… [--seed S]` makes N random policies, or takes those of documents that declare a
+//!   domain, runs what the check accepts in random worlds, and exits with 0 if every need that is proven, or
+//!   that a guard has passed, holds.
 //! - `repairs` repairs the faulty plans of the scenarios, and exits with 0 if at least half of them are
 //!   repaired.
 //! - `reach [SCENE|--rooms N --seed S]` asks motion queries.
@@ -184,7 +185,7 @@ fn run() -> Result<bool, String> {
              kinematic|mujoco] [--planner PLANNER] [--model M] [--pictures] [--jobs N] [--only WORD]… \
              [--every N] [--objects seen|unseen], \
              eval tasks [FILE…] with the same flags and [--trials N], eval world RUNS with the same flags, \
-             eval mutations, eval soundness POLICIES [--seed S], \
+             eval mutations, eval soundness POLICIES|FILE… [--seed S], \
              eval physics --robot NAME [--scene S] [--seeds N] [--profile P], or \
              eval reach [SCENE|--rooms N --seed S] (`eval reach --help`)",
             names.join("|")
@@ -206,10 +207,7 @@ fn run() -> Result<bool, String> {
             return shown(&failing(&flags.bench_in("harsh")?, count)?, only_json);
         }
         _ if flags.is_benched() => return Err(usage()),
-        ["soundness", count] => {
-            let count = number(count)?;
-            return shown(&fuzzed(flags.workers, count, flags.seed.unwrap_or(1))?, only_json);
-        }
+        ["soundness", _, ..] => return shown(&sound(&flags, words.get(1..).unwrap_or_default())?, only_json),
         _ if flags.seed.is_some() => return Err(usage()),
         _ => {}
     }
@@ -345,8 +343,18 @@ fn mutated(workers: Workers) -> Result<Report, String> {
     })
 }
 
-fn fuzzed(workers: Workers, count: usize, seed: u64) -> Result<Report, String> {
-    let found = soundness::fuzz(workers, count, seed)?;
+/// Random policies, if a number is given, or those of files.
+fn sound(flags: &Flags, given: &[&str]) -> Result<Report, String> {
+    let seed = flags.seed.unwrap_or(1);
+    let found = match given {
+        [count] if count.parse::<usize>().is_ok() => soundness::fuzz(flags.workers, number(count)?, seed)?,
+        files => {
+            let text =
+                |file: &&str| std::fs::read_to_string(file).map_err(|error| format!("{file}: {error}"));
+            let read = |file: &&str| text(file).map(|text| ((*file).to_owned(), text));
+            soundness::play(&files.iter().map(read).collect::<Result<Vec<_>, _>>()?, seed, None)?
+        }
+    };
     Ok(Report {
         is_good: found.sums.findings.is_empty(),
         lines: found.findings,

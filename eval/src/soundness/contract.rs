@@ -87,6 +87,7 @@ pub(super) struct Change {
 /// An action or a perception.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Action {
+    pub(super) name: String,
     pub(super) params: Vec<Kind>,
     pub(super) needs: Vec<Need>,
     pub(super) makes: Vec<Change>,
@@ -105,6 +106,8 @@ pub(super) struct Domain {
     pub(super) entities: Vec<(String, Kind)>,
     /// Number of entities that the domain declares.
     pub(super) declared: usize,
+    /// Name of each fluent.
+    pub(super) names: Vec<String>,
     /// Kinds of the parameters of each fluent.
     pub(super) fluents: Vec<Vec<Kind>>,
     pub(super) actions: Vec<Action>,
@@ -146,6 +149,12 @@ impl Domain {
         self.entities.iter().position(|(known, _)| known == name)
     }
 
+    /// Index of a fluent.
+    #[must_use]
+    pub(super) fn fluent(&self, name: &str) -> Option<usize> {
+        self.names.iter().position(|known| known == name)
+    }
+
     /// Cells of the facts of a fluent whose arguments are these entities, or any.
     #[must_use]
     pub(super) fn cells(&self, fluent: usize, args: &[Option<usize>]) -> Vec<usize> {
@@ -165,7 +174,7 @@ impl Domain {
     #[must_use]
     pub(super) fn said(&self, cell: usize, truth: bool) -> String {
         let mut first = 0;
-        for (fluent, params) in self.fluents.iter().enumerate() {
+        for (fluent, params) in self.names.iter().zip(&self.fluents) {
             let count = self.cells_of(params.len());
             if cell < first + count {
                 let mut rest = cell - first;
@@ -175,7 +184,7 @@ impl Domain {
                     name
                 });
                 let args: Vec<&str> = args.collect();
-                return format!("f{fluent}({}) becomes {truth}", args.join(", "));
+                return format!("{fluent}({}) becomes {truth}", args.join(", "));
             }
             first += count;
         }

@@ -8,7 +8,7 @@ use super::contract::{Action, Arg, Atom, Change, Condition, Domain, Kind, Need};
 use super::policy::{Policy, Reaction, Step};
 
 /// Failures that actions declare.
-const FAILURES: [&str; 2] = ["slipped", "blocked"];
+pub(super) const FAILURES: [&str; 2] = ["slipped", "blocked"];
 /// Resources of actions; one contains the other or they are apart, as the standard library says.
 const RESOURCES: [&str; 3] = ["base", "voice", "camera"];
 
@@ -38,9 +38,10 @@ pub(super) fn domain(dice: &mut SplitMix64) -> Domain {
     }
     domain.fluents = vec![vec![], vec![Kind::Object], vec![Kind::Object], vec![Kind::Entity]];
     domain.fluents.push(vec![Kind::Object, if chance(dice, 50) { Kind::Object } else { Kind::Entity }]);
+    domain.names = (0..domain.fluents.len()).map(|index| format!("f{index}")).collect();
     for index in 0..4 + dice.random_range(0..3) {
         let finds = index == 0 || chance(dice, 15);
-        let action = action(dice, &domain, finds);
+        let action = Action { name: format!("a{index}"), ..action(dice, &domain, finds) };
         domain.actions.push(action);
     }
     let known = [100, 60, 25].get(dice.random_range(0..3)).copied().unwrap_or(60);
@@ -162,7 +163,7 @@ fn action(dice: &mut SplitMix64, domain: &Domain, finds: bool) -> Action {
     let fails = FAILURES.into_iter().filter(|_| chance(dice, 40)).collect();
     // Without any it would hold the whole robot.
     let uses = chance(dice, 90).then(|| one_of(dice, &RESOURCES)).flatten();
-    Action { params, needs, makes, unsettles, fails, uses, finds }
+    Action { name: String::new(), params, needs, makes, unsettles, fails, uses, finds }
 }
 
 /// Maker of a policy.

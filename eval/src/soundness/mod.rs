@@ -9,12 +9,14 @@
 mod contract;
 mod make;
 mod policy;
+mod read;
 mod shrink;
 mod trial;
 mod world;
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use motet_syntax::{FileId, Severity, Source};
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::SeedableRng as _;
 use serde::Serialize;
@@ -23,13 +25,15 @@ use self::contract::Domain;
 use self::policy::{Policy, domain_text, policy_text};
 use self::shrink::{Reduced, shrink};
 pub use self::trial::SeededFault;
-use self::trial::{Bench, Checked, Mistake, Needs};
+use self::trial::{Bench, Checked, Finding, Mistake, Needs};
 use crate::Workers;
 
 /// Number of policies over one domain.
 const PER_DOMAIN: usize = 20;
 /// Number of runs of a policy.
 const RUNS: u64 = 24;
+/// Number of runs of a policy of a document.
+const PLAYED: u64 = 2000;
 /// Number of findings of each sort that are made small and shown.
 const SHOWN: usize = 4;
 
@@ -113,6 +117,57 @@ pub fn fuzz_with(
     Ok(fuzzed)
 }
 
+/// Plays each policy of documents that declare a domain, given by name and text, from a seed, perhaps with a
+/// fault in every graph.
+///
+/// # Errors
+///
+/// A document has errors of syntax or a declaration that the worlds cannot play; with its name.
+pub fn play(documents: &[(String, String)], seed: u64, fault: Option<SeededFault>) -> Result<Fuzzed, String> {
+    let mut fuzzed = Fuzzed::default();
+    for (name, text) in documents {
+        let parsed = motet_syntax::read(&Source::new(name.as_str(), text.as_str()), FileId(0));
+        if let Some(wrong) = parsed.diagnostics.iter().find(|found| found.severity == Severity::Error) {
+            return Err(format!("{name}: {}: {}", wrong.code.0, wrong.message));
+        }
+        let domain = read::domain(&parsed.file).map_err(|why| format!("{name}: {why}"))?;
+        let bench = Bench::bare(&domain, fault);
+        for policy in parsed.file.runnable() {
+            let (policy, sums) = (&policy.name.text, &mut fuzzed.sums);
+            sums.policies += 1;
+            match bench.check_document(&parsed, policy) {
+                Checked::Accepted(graph) => {
+                    sums.accepted += 1;
+                    let mut seen = BTreeSet::new();
+                    for seed in seed..seed + PLAYED {
+                        sums.runs += 1;
+                        for Finding { mistake, place } in bench.run(&graph, seed, Needs::Compiled) {
+                            if seen.insert(mistake) {
+                                let trace = lines(&bench.trace(&graph, seed));
+                                let what = mistake.text();
+                                let told =
+                                    format!("{name}, `{policy}`: {place} {what} (run {seed})\n{trace}");
+                                fuzzed.findings.push(told);
+                            }
+                        }
+                    }
+                    for mistake in seen {
+                        *sums.findings.entry(format!("{mistake:?}").to_lowercase()).or_default() += 1;
+                    }
+                }
+                Checked::Refuted => sums.refuted += 1,
+                Checked::Other(codes) => *sums.other.entry(codes.join(" ")).or_default() += 1,
+            }
+        }
+    }
+    Ok(fuzzed)
+}
+
+/// A run, as comments.
+fn lines(trace: &[String]) -> String {
+    trace.iter().take(MAX_TRACE).map(|line| format!("// {line}\n")).collect()
+}
+
 /// Fuzzes the policies of one domain.
 fn fuzz_domain(
     (seed, index): (u64, u64),
@@ -177,15 +232,9 @@ impl Sums {
 
 impl Reduced {
     fn text(&self) -> String {
-        let what = match self.finding.mistake {
-            Mistake::Proven => "is called proven, and is false when its step begins",
-            Mistake::Passed => "was passed by its guard, and is false when its step begins",
-            Mistake::Refused => "was refused by its guard as false, and holds",
-            Mistake::Unseen => "was refused by its guard as unknown, and can be observed",
-            Mistake::Endless => "",
-        };
+        let what = self.finding.mistake.text();
         let (domain, policy) = (domain_text(&self.domain, true), policy_text(&self.domain, &self.policy));
-        let trace: String = self.trace.iter().take(MAX_TRACE).map(|line| format!("// {line}\n")).collect();
+        let trace = lines(&self.trace);
         format!("// {} {what} (run {})\n{domain}{policy}{trace}", self.finding.place, self.seed)
     }
 }

@@ -108,12 +108,12 @@ pub(super) fn domain_text(domain: &Domain, with_needs: bool) -> String {
     for (name, kind) in domain.entities.iter().take(domain.declared) {
         let _ = writeln!(writer.out, "entity {name}: {kind}");
     }
-    for (index, params) in domain.fluents.iter().enumerate() {
+    for (name, params) in domain.names.iter().zip(&domain.fluents) {
         let params: Vec<String> = (0..).zip(params).map(|(at, kind)| format!("p{at}: {kind}")).collect();
-        let _ = writeln!(writer.out, "fluent f{index}({})", params.join(", "));
+        let _ = writeln!(writer.out, "fluent {name}({})", params.join(", "));
     }
-    for (index, action) in domain.actions.iter().enumerate() {
-        writer.action(index, action, with_needs);
+    for action in &domain.actions {
+        writer.action(action, with_needs);
     }
     let start: Vec<String> =
         domain.start.iter().map(|(atom, truth)| format!("{}{}", not(*truth), writer.atom(atom))).collect();
@@ -143,14 +143,14 @@ fn not(truth: bool) -> &'static str {
 }
 
 impl Writer<'_> {
-    fn action(&mut self, index: usize, action: &Action, with_needs: bool) {
+    fn action(&mut self, action: &Action, with_needs: bool) {
         let mut params: Vec<String> =
             (0..).zip(&action.params).map(|(at, kind)| format!("x{at}: {kind}")).collect();
         let (what, result) = if action.finds { ("perception", " -> Object") } else { ("action", "") };
         if action.finds {
             params.insert(0, "what: Text".to_owned());
         }
-        let _ = writeln!(self.out, "{what} a{index}({}){result}", params.join(", "));
+        let _ = writeln!(self.out, "{what} {}({}){result}", action.name, params.join(", "));
         let mut clause = |name: &str, items: Vec<String>| {
             if !items.is_empty() {
                 let _ = writeln!(self.out, "    {name} {}", items.join(", "));
@@ -197,7 +197,8 @@ impl Writer<'_> {
 
     fn atom(&self, atom: &Atom) -> String {
         let args: Vec<String> = atom.args.iter().map(|arg| self.arg(*arg)).collect();
-        format!("f{}({})", atom.fluent, args.join(", "))
+        let name = self.domain.names.get(atom.fluent).map_or("", String::as_str);
+        format!("{name}({})", args.join(", "))
     }
 
     fn condition(&self, condition: &Condition) -> String {
@@ -234,14 +235,14 @@ impl Writer<'_> {
     fn step(&mut self, step: &Step, depth: usize) {
         match step {
             Step::Call { action, args, name, retry } => {
-                let finds = self.domain.actions.get(*action).is_some_and(|action| action.finds);
+                let Some(action) = self.domain.actions.get(*action) else { return };
                 let mut args: Vec<String> = args.iter().map(|arg| self.arg(*arg)).collect();
-                if finds {
+                if action.finds {
                     args.insert(0, "\"thing\"".to_owned());
                 }
                 let name = name.map_or_else(String::new, |name| format!("let m{name} = "));
                 let retry = if *retry > 0 { format!(" retry {retry}") } else { String::new() };
-                self.line(depth, &format!("{name}a{action}({}){retry}", args.join(", ")));
+                self.line(depth, &format!("{name}{}({}){retry}", action.name, args.join(", ")));
             }
             Step::Choose { among, name } => {
                 let text = format!("let m{name} = choose(\"which?\", [{}])", self.names(among));

@@ -5,7 +5,7 @@ use motet_graph::{Graph, NodeId, NodeKind, Value, Verdict};
 use motet_runtime::{
     Command, Driver as _, Effect, Engine, Event, RunEnd, StartState, Time, TraceEventKind, Truth,
 };
-use motet_syntax::{Severity, Source, Sources};
+use motet_syntax::{Parsed, Severity, Source, Sources};
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::SeedableRng as _;
 
@@ -54,6 +54,19 @@ pub(super) enum Mistake {
     Unseen,
     /// The run does not end.
     Endless,
+}
+
+impl Mistake {
+    /// The rest of a sentence about a need.
+    pub(super) fn text(self) -> &'static str {
+        match self {
+            Self::Proven => "is called proven, and is false when its step begins",
+            Self::Passed => "was passed by its guard, and is false when its step begins",
+            Self::Refused => "was refused by its guard as false, and holds",
+            Self::Unseen => "was refused by its guard as unknown, and can be observed",
+            Self::Endless => "",
+        }
+    }
 }
 
 /// Mistake with its place.
@@ -105,14 +118,24 @@ impl<'d> Bench<'d> {
         }
     }
 
+    /// A session over nothing, for documents that declare the domain themselves.
+    pub(super) fn bare(domain: &'d Domain, fault: Option<SeededFault>) -> Self {
+        Self { domain, session: Session::builder().build(&mut Sources::default()), fault }
+    }
+
     /// Checks a policy.
     #[must_use]
     pub(super) fn check(&self, policy: &Policy) -> Checked {
         let mut sources = Sources::default();
         let source = Source::new("policy.motet", policy_text(self.domain, policy));
         let id = sources.add(source.clone());
-        let parsed = motet_syntax::read(&source, id);
-        let compiled = self.session.compile(&parsed, Some("p"));
+        self.check_document(&motet_syntax::read(&source, id), "p")
+    }
+
+    /// Checks a policy of a document.
+    #[must_use]
+    pub(super) fn check_document(&self, parsed: &Parsed, policy: &str) -> Checked {
+        let compiled = self.session.compile(parsed, Some(policy));
         let errors = compiled.diagnostics.iter().filter(|said| said.severity == Severity::Error);
         let mut codes: Vec<&'static str> = errors.map(|said| said.code.0).collect();
         codes.sort_unstable();

@@ -115,8 +115,7 @@ impl<'d> World<'d> {
     /// The action of a name.
     #[must_use]
     pub(super) fn action(&self, name: &str) -> Option<&'d Action> {
-        let index: usize = name.strip_prefix('a')?.parse().ok()?;
-        self.domain.actions.get(index)
+        self.domain.actions.iter().find(|action| action.name == name)
     }
 
     /// The frame of the arguments of a call.
@@ -177,7 +176,7 @@ impl<'d> World<'d> {
 
     fn answer(&self, query: &Query) -> Answer {
         let Query::Fact { fluent, args } = query else { return Answer::Unknown };
-        let fluent = fluent.strip_prefix('f').and_then(|index| index.parse().ok());
+        let fluent = self.domain.fluent(fluent);
         let args = args.iter().map(|arg| match arg {
             Pattern::Any => Some(None),
             Pattern::Is(Value::Entity(id)) => self.domain.entity(id).map(Some),
@@ -231,7 +230,7 @@ impl<'d> World<'d> {
         let place = self.dice.random_range(0..self.watches.len().max(1));
         let Some((query, known)) = self.watches.get(place).cloned() else { return };
         let Query::Fact { fluent, args } = &query else { return };
-        let fluent = fluent.strip_prefix('f').and_then(|index| index.parse().ok());
+        let fluent = self.domain.fluent(fluent);
         let args = args.iter().map(|arg| match arg {
             Pattern::Is(Value::Entity(id)) => self.domain.entity(id),
             Pattern::Is(_) | Pattern::Any => None,
