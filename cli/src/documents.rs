@@ -119,9 +119,9 @@ impl Input {
                 let name = path.display().to_string();
                 Ok(Document { name, line_of: None, path: Some(path.clone()), bytes })
             })),
-            Self::Lines(path) => match File::open(path) {
+            Self::Lines(path) => match motet_project::files::open(path) {
                 Ok(file) => Box::new(Lines { path, reader: Some(BufReader::new(file)), number: 0 }),
-                Err(source) => Box::new(iter::once(Err(CliError::read(path, source)))),
+                Err(source) => Box::new(iter::once(Err(source.into()))),
             },
         }
     }
@@ -210,6 +210,9 @@ pub(crate) enum Flow {
     Stop,
 }
 
+/// Longest line that is stepped over: an endless one would never be done.
+const MAX_SKIPPED: usize = 4 * MAX_BYTES;
+
 /// Next line without its line break, or the length of a line that is too long; `None` at the end.
 fn next_line(reader: &mut impl BufRead) -> io::Result<Option<Bytes>> {
     let mut line = Vec::new();
@@ -236,6 +239,10 @@ fn next_line(reader: &mut impl BufRead) -> io::Result<Option<Bytes>> {
         length += skipped;
         if is_over {
             return Ok(Some(Bytes::TooMany(length)));
+        }
+        if length > MAX_SKIPPED {
+            let why = format!("a line of it has more than {} MiB", MAX_SKIPPED >> 20);
+            return Err(io::Error::new(io::ErrorKind::InvalidData, why));
         }
     }
 }

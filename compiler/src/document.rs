@@ -6,12 +6,13 @@
 use std::sync::Arc;
 
 use motet_graph::Graph;
-use motet_syntax::ast::{Item, Policy};
+use motet_syntax::ast::{Item, MAX_MISTAKES, Policy};
 use motet_syntax::{Diagnostic, Parsed, Related, Severity, Span};
 use smol_str::SmolStr;
 
-use crate::declare::{Library, LibraryBuilder};
+use crate::declare::{Library, LibraryBuilder, MAX_DECLARATIONS};
 use crate::environment::Environment;
+use crate::facts::effort;
 use crate::feasibility::{Geometry, MotionVerdict, MotionVerdicts};
 use crate::ir::{Program, StepKind};
 use crate::limits::errors::NoPolicy;
@@ -72,8 +73,7 @@ impl Session {
     /// ```
     #[must_use]
     pub fn check(&self, parsed: &Parsed) -> Vec<Diagnostic> {
-        let findings = self.findings(parsed, self.geometry.as_deref());
-        findings.into_iter().map(|found| found.diagnostic).collect()
+        limited(self.findings(parsed, self.geometry.as_deref()))
     }
 
     /// Checks a document, and tells of each of its policies without parameters if it compiles. Each policy is
@@ -140,10 +140,15 @@ impl Session {
         let (mut findings, mut policies, mut left) = (Vec::new(), Vec::new(), Vec::new());
         self.within(parsed, &mut diagnostics, |library, environment, diagnostics| {
             let is_refused = diagnostics.iter().any(is_error);
-            for policy in parsed.file.policies() {
+            let mut budget = ErrorBudget::default();
+            for policy in parsed.file.policies().take(MAX_DECLARATIONS) {
+                if !budget.is_left() {
+                    break;
+                }
                 let mut analysis =
                     self.analyse(policy, parsed, library, environment, self.geometry.as_deref());
                 each(&analysis, library, environment);
+                budget.spend(&analysis.findings);
                 findings.append(&mut analysis.findings);
                 if policy.params.is_empty() {
                     left.extend(analysis.deferred_notes(policy, parsed, library, environment));
@@ -152,7 +157,7 @@ impl Session {
             }
         });
         findings.extend(diagnostics.into_iter().map(Finding::from));
-        let diagnostics = in_order(findings).into_iter().map(|found| found.diagnostic).collect();
+        let diagnostics = limited(in_order(findings));
         let left = in_order(left.into_iter().map(Finding::from).collect());
         let deferred_notes = left.into_iter().map(|found| found.diagnostic).collect();
         DocumentCheck { diagnostics, policies, deferred_notes }
@@ -218,8 +223,14 @@ impl Session {
         let mut diagnostics = parsed.diagnostics.clone();
         let mut findings = Vec::new();
         self.within(parsed, &mut diagnostics, |library, environment, _| {
-            for policy in parsed.file.policies() {
-                findings.extend(self.analyse(policy, parsed, library, environment, geometry).findings);
+            let mut budget = ErrorBudget::default();
+            for policy in parsed.file.policies().take(MAX_DECLARATIONS) {
+                if !budget.is_left() {
+                    break;
+                }
+                let found = self.analyse(policy, parsed, library, environment, geometry).findings;
+                budget.spend(&found);
+                findings.extend(found);
             }
         });
         findings.extend(diagnostics.into_iter().map(Finding::from));
@@ -263,7 +274,7 @@ impl Session {
             (graph, skipped_motions) = analysis.lower(is_refused, library, environment);
         });
         findings.extend(diagnostics.into_iter().map(Finding::from));
-        let diagnostics = in_order(findings).into_iter().map(|found| found.diagnostic).collect();
+        let diagnostics = limited(in_order(findings));
         Compiled { graph, diagnostics, skipped_motions }
     }
 
@@ -275,6 +286,9 @@ impl Session {
         diagnostics: &mut Vec<Diagnostic>,
         run: impl FnOnce(&Library, &Environment, &mut Vec<Diagnostic>),
     ) {
+        let run = |library: &Library, environment: &Environment, found: &mut Vec<Diagnostic>| {
+            effort::bounded(parsed.text.len(), || run(library, environment, found));
+        };
         if matches!(parsed.file.items.as_slice(), [Item::Policy(policy)] if policy.params.is_empty()) {
             return run(&self.library, &self.environment, diagnostics);
         }
@@ -449,6 +463,33 @@ fn call_site(span: Span, policy: &Policy, program: &Program) -> Option<Span> {
         step = program.step(step.position.parent?)?;
     }
     matches!(step.kind, StepKind::Inline { .. }).then_some(step.span)
+}
+
+/// Number of errors that may still be told of a document, in whose policies they are looked for.
+struct ErrorBudget(usize);
+
+impl Default for ErrorBudget {
+    fn default() -> Self {
+        Self(MAX_MISTAKES + 1)
+    }
+}
+
+impl ErrorBudget {
+    fn is_left(&self) -> bool {
+        self.0 > 0
+    }
+
+    fn spend(&mut self, findings: &[Finding]) {
+        let errors = findings.iter().filter(|found| is_error(&found.diagnostic)).count();
+        self.0 = self.0.saturating_sub(errors);
+    }
+}
+
+/// The diagnostics of findings, without the errors that are too many.
+fn limited(findings: Vec<Finding>) -> Vec<Diagnostic> {
+    let mut diagnostics = findings.into_iter().map(|found| found.diagnostic).collect();
+    motet_syntax::errors::limit(&mut diagnostics);
+    diagnostics
 }
 
 /// Findings in the order of the document, without duplicates.

@@ -3,7 +3,6 @@
 
 mod btcpp;
 
-use std::fs::File;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
@@ -178,7 +177,7 @@ fn sdf(args: &SdfArgs, report: &mut Report) -> Result<Exit, CliError> {
 fn read_image(path: &Path) -> Result<Vec<u8>, CliError> {
     let fail = |source| CliError::from(motet_project::ProjectError::Read { path: path.to_owned(), source });
     let mut bytes = Vec::new();
-    File::open(path).map_err(fail)?.take(8 * MAX_CELLS as u64).read_to_end(&mut bytes).map_err(fail)?;
+    motet_project::files::open(path)?.take(8 * MAX_CELLS as u64).read_to_end(&mut bytes).map_err(fail)?;
     Ok(bytes)
 }
 

@@ -38,6 +38,32 @@ fn place(name: &str) -> Place {
 }
 
 #[test]
+#[cfg(unix)]
+fn pipes_and_devices_are_read_only_where_they_are_open() {
+    let place = place("check_pipes");
+    place.shell("mkfifo pipe.motet pipe.jsonl").check(0, &[]);
+    let refused = &["err:is no regular file; give what a pipe says as `-` or `/dev/stdin`"];
+    for line in [
+        "check pipe.motet",
+        "check pipe.jsonl",
+        "check /dev/zero",
+        "check good.motet --robot hsr --scene pipe.motet",
+        "check good.motet --scene kitchen --state /dev/zero",
+        "check good.motet --scene kitchen --domain pipe.motet",
+        "dataset lint pipe.motet",
+        "dataset lint /dev/zero",
+    ] {
+        place.run(line).check(2, refused);
+    }
+    place.run_with("check /dev/stdin --scene kitchen --no-geometry", GOOD.as_bytes(), &[]).check(0, &[]);
+    let motet = env!("CARGO_BIN_EXE_motet");
+    let piped = |from: &str, line: &str| place.shell(&format!("cat {from} | {motet} {line}"));
+    piped("good.motet", "check /dev/fd/0 --scene kitchen --no-geometry").check(0, &[]);
+    piped("/dev/zero", "check /dev/fd/0").check(1, &["out:M0112"]);
+    piped("/dev/zero", "dataset lint /dev/fd/0").check(2, &["err:a line of it has more than 64 MiB"]);
+}
+
+#[test]
 fn ends_with_the_right_code() {
     let place = place("check_codes");
     let scene = "--scene kitchen";

@@ -7,8 +7,8 @@ use indexmap::IndexMap;
 use motet_robots::card::Robot;
 use motet_stdlib::lang;
 use motet_syntax::ast::{
-    EntitiesDecl, EnumDecl, FailureDecl, File, FluentDecl, InitiallyDecl, Item, KindDecl, MeasureDecl, Name,
-    Param, Policy, PrimitiveDecl, TypeExpr,
+    EntitiesDecl, EnumDecl, FailureDecl, File, FluentDecl, InitiallyDecl, Item, KindDecl, MAX_MISTAKES,
+    MeasureDecl, Name, Param, Policy, PrimitiveDecl, TypeExpr,
 };
 use motet_syntax::{Diagnostic, Source, Sources, Span, Syntax};
 use rustc_hash::FxHashMap;
@@ -25,6 +25,8 @@ use crate::ir::{Base, Entities, Entity, EnumId, Failure, Fluent, Kind, MAX_ENTIT
 pub const MAX_FLUENT_PARAMS: usize = 4;
 /// Maximal number of declarations of one sort.
 pub const MAX_DECLARATIONS: usize = 10_000;
+/// Maximal number of facts at the start.
+pub(crate) const MAX_INITIALLY: usize = 50_000;
 
 /// Layers of declarations with the files they come from; larger libraries are built on top of them.
 #[derive(Clone, Debug)]
@@ -81,7 +83,7 @@ impl LibraryBuilder {
         kinds(&mut library, &declarations, &mut diagnostics);
         super::card::apply(&mut library, robot.as_ref());
         enums(&mut library, &declarations, &mut diagnostics);
-        failures(&mut library, &declarations);
+        failures(&mut library, &declarations, &mut diagnostics);
         library.add_failure_kinds();
         fields(&mut library, &declarations, &mut diagnostics);
         fluents(&mut library, &declarations, robot.as_ref(), &mut diagnostics);
@@ -90,6 +92,9 @@ impl LibraryBuilder {
         let entities = entities(&mut library, &declarations, &mut diagnostics);
         contract::primitives(&mut library, &declarations, robot.as_ref(), &entities, &mut diagnostics);
         for (index, (name, policy)) in declarations.policies.iter().enumerate() {
+            if limit(index, "policies", policy.item.span, &mut diagnostics) {
+                break;
+            }
             library.names.policies.insert(name.clone(), index);
             library.policies.push(policy.item.clone());
         }
@@ -110,7 +115,7 @@ fn index<T>(table: &[T]) -> u16 {
     u16::try_from(table.len()).unwrap_or(u16::MAX)
 }
 
-fn limit(
+pub(super) fn limit(
     len: usize,
     what: &'static str,
     span: motet_syntax::Span,
@@ -153,6 +158,9 @@ fn kinds(library: &mut Library, declarations: &Declarations, diagnostics: &mut V
         }
     }
     for decl in waiting {
+        if diagnostics.len() > MAX_MISTAKES {
+            return;
+        }
         let decl = &decl.item;
         let Some(parent) = &decl.parent else { continue };
         if declarations.kinds.contains_key(&parent.text) {
@@ -184,6 +192,9 @@ fn enums(library: &mut Library, declarations: &Declarations, diagnostics: &mut V
         if limit(library.enums.len(), "enumerations", decl.item.span, diagnostics) {
             return;
         }
+        if limit(decl.item.cases.len().min(MAX_DECLARATIONS), "cases", decl.item.span, diagnostics) {
+            continue;
+        }
         let id = EnumId(index(&library.enums));
         let mut cases: Vec<SmolStr> = Vec::with_capacity(decl.item.cases.len());
         for case in &decl.item.cases {
@@ -200,14 +211,19 @@ fn enums(library: &mut Library, declarations: &Declarations, diagnostics: &mut V
     }
 }
 
-fn failures(library: &mut Library, declarations: &Declarations) {
+fn failures(library: &mut Library, declarations: &Declarations, diagnostics: &mut Vec<Diagnostic>) {
     let always = [lang::builtin_failures::TIMEOUT, lang::failures::FAILED, lang::failures::EXHAUSTED]
         .map(SmolStr::new_static);
     for name in always.into_iter().chain(declarations.failures.keys().cloned()) {
         if library.names.failures.contains_key(&name) {
             continue;
         }
-        let doc = declarations.failures.get(&name).map_or("", |decl| decl.item.doc.as_str());
+        let decl = declarations.failures.get(&name);
+        let span = decl.map_or_else(Span::default, |decl| decl.item.name.span);
+        if limit(library.failures.len(), "failures", span, diagnostics) {
+            return;
+        }
+        let doc = decl.map_or("", |decl| decl.item.doc.as_str());
         let doc = if name == lang::builtin_failures::TIMEOUT { lang::TIMEOUT_DOC } else { doc };
         library.names.failures.insert(name.clone(), Failure(index(&library.failures)));
         library.failures.push(FailureDef { text: clause(&name, doc), name });
@@ -236,6 +252,9 @@ fn fluents(
 ) {
     for (name, decl) in &declarations.fluents {
         let decl = &decl.item;
+        if diagnostics.len() > MAX_MISTAKES {
+            return;
+        }
         let params = params(library, &decl.params, diagnostics);
         for ((_, ty), param) in params.iter().zip(&decl.params) {
             let about = matches!(ty, Ty { base: Base::Entity(_) | Base::Enum(_) | Base::Unknown, lists: 0 });
@@ -267,6 +286,9 @@ fn measures(
 ) {
     for (name, decl) in &declarations.measures {
         let decl = &decl.item;
+        if diagnostics.len() > MAX_MISTAKES {
+            return;
+        }
         let params = params(library, &decl.params, diagnostics);
         let result = named_type(library, &decl.result, diagnostics);
         if limit(library.measures.len(), "measures", decl.span, diagnostics) {
@@ -289,6 +311,9 @@ fn entities(
         entities.add(name.into(), kind);
     }
     for decl in &declarations.entities {
+        if diagnostics.len() > MAX_MISTAKES {
+            break;
+        }
         let kind = match library.names.kinds.get(&decl.kind.text) {
             Some(kind) => *kind,
             None => {
@@ -299,6 +324,9 @@ fn entities(
             }
         };
         for name in &decl.names {
+            if diagnostics.len() > MAX_MISTAKES {
+                break;
+            }
             if entities.len() >= MAX_ENTITIES {
                 diagnostics
                     .push(LimitExceeded { span: name.span, what: "entities", limit: MAX_ENTITIES }.into());
@@ -439,6 +467,9 @@ fn put<T: Clone + Placed>(
 ) {
     if let Some(first) = table.get(&name.text).filter(|first| first.layer == layer) {
         let first = first.item.name_span();
+        if diagnostics.len() > MAX_MISTAKES {
+            return;
+        }
         diagnostics.push(Duplicate { span: name.span, name: name.text.clone(), what, first }.into());
         return;
     }

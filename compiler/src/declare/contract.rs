@@ -3,17 +3,18 @@
 use std::sync::Arc;
 
 use motet_robots::card::Robot;
-use motet_syntax::ast::{Clause, Expr, ExprKind, Name, PrimitiveDecl, Quantified, TypeExpr};
+use motet_syntax::ast::{Clause, Expr, ExprKind, MAX_MISTAKES, Name, PrimitiveDecl, Quantified, TypeExpr};
 use motet_syntax::unit::Dimension;
 use motet_syntax::words::is_json_key;
 use motet_syntax::{Diagnostic, Span};
 use smol_str::SmolStr;
 
-use super::builder::{Declarations, elaborator};
+use super::builder::{Declarations, MAX_INITIALLY, elaborator, limit};
 use super::card;
 use super::elaborator::{Elaborator, Expected, ValueRole};
 use super::errors::{
-    BadDeclaration, Duplicate, ReservedName, UnknownFailure, UnknownMotion, UnknownResource, UnknownType,
+    BadDeclaration, Duplicate, LimitExceeded, ReservedName, UnknownFailure, UnknownMotion, UnknownResource,
+    UnknownType,
 };
 use super::library::{EffectDef, FAILURE, LastsDef, Library, NeedDef, ParamDef, PrimitiveDef, ResourceSet};
 use super::name::{list, near};
@@ -30,7 +31,10 @@ pub(super) fn primitives(
     diagnostics: &mut Vec<Diagnostic>,
 ) {
     let mut defs: Vec<PrimitiveDef> = Vec::with_capacity(declarations.primitives.len());
-    for decl in declarations.primitives.values() {
+    for (index, decl) in declarations.primitives.values().enumerate() {
+        if limit(index, "primitives", decl.item.span, diagnostics) || diagnostics.len() > MAX_MISTAKES {
+            break;
+        }
         let mut elaborator = elaborator(library, entities);
         let def = primitive(&mut elaborator, &decl.item, robot);
         let mistakes = elaborator.diagnostics;
@@ -88,6 +92,14 @@ pub(super) fn initially(
         }
     }
     for expr in declarations.initially.iter().flat_map(|decl| &decl.facts) {
+        if elaborator.has_too_many_errors() {
+            break;
+        }
+        if facts.len() >= MAX_INITIALLY {
+            let (what, limit) = ("facts at the start", MAX_INITIALLY);
+            elaborator.report(LimitExceeded { span: expr.span, what, limit });
+            break;
+        }
         let (value, inner) = strip_not(expr);
         if let Some(fact) = literal(&mut elaborator, inner) {
             facts.push((fact, value, expr.span));

@@ -153,7 +153,7 @@ impl Elaborator<'_> {
         wanted: Option<Expected<'_>>,
         written: NameNotation,
     ) {
-        if self.is_behind_gap && written == NameNotation::Bare {
+        if self.is_behind_gap && written == NameNotation::Bare || self.has_too_many_errors() {
             return;
         }
         // What a string of JSON writes with a `$` has no `$` in the braces of a text.

@@ -27,6 +27,10 @@ impl BasePoseFacts {
             return;
         }
         let of = key(fact);
+        // All facts with more arguments than one are about the robot.
+        if of.is_pattern() && of.arg(0) != ANY && of.arg(0) != ROBOT.0 {
+            return;
+        }
         if of.is_pattern() {
             self.facts.retain(|(fluent, key), _| *fluent != fact.fluent || !of.covers(*key));
         } else {

@@ -3,12 +3,13 @@
 
 use indexmap::{IndexMap, IndexSet};
 use motet_stdlib::lang;
+use motet_syntax::ast::MAX_MISTAKES;
 use motet_syntax::{Diagnostic, Span, Syntax};
 
 use super::Environment;
 use super::errors::{Contradiction, NotAFact};
-use crate::declare::Library;
 use crate::declare::elaborator::Elaborator;
+use crate::declare::{Library, MAX_INITIALLY};
 use crate::ir::{Base, Entity, Fact, Fluent, Term};
 
 /// Facts at the start with their truth values, in order, in text syntax: `{"holding(mug_1)": true}`.
@@ -25,7 +26,15 @@ impl InitialState {
         let entities = environment.entities().clone();
         let mut said = Vec::new();
         let says_free = self.facts.keys().any(|text| text.trim_start().starts_with(lang::fluents::FREE));
-        for (text, (value, span)) in &self.facts {
+        for (index, (text, (value, span))) in self.facts.iter().enumerate() {
+            if diagnostics.len() > MAX_MISTAKES {
+                break;
+            }
+            if index == MAX_INITIALLY {
+                let why = format!("a state has at most {MAX_INITIALLY} facts");
+                diagnostics.push(NotAFact { span: *span, text: text.clone(), why, remedy: None }.into());
+                break;
+            }
             let parsed = match motet_syntax::text::parse_condition(text) {
                 Ok(expr) => expr,
                 Err(mistake) => {

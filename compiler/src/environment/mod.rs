@@ -19,7 +19,7 @@ use smol_str::SmolStr;
 
 use crate::declare::Library;
 use crate::facts::{ANY, Cause, FactKey, FactStore, TruthSet, arg};
-use crate::ir::{Entities, Entity, Fact, Kind, ROBOT, Term};
+use crate::ir::{Entities, Entity, Fact, Fluent, Kind, ROBOT, Term};
 
 pub(crate) use errors::CODES;
 
@@ -36,6 +36,8 @@ pub struct Environment {
     pub(crate) facts: FactStore<'static>,
     /// The facts at the start as they were given, in order, for the graph.
     pub(crate) given: Vec<(Fact, bool)>,
+    /// Arguments of these facts, by fluent and place.
+    given_of: FxHashSet<(Fluent, usize, u16)>,
     /// Facts that follow from the pose of the base, unless another word was given about them.
     pub(crate) base_pose_facts: BasePoseFacts,
 }
@@ -79,6 +81,7 @@ impl Environment {
             endings,
             facts,
             given: Vec::new(),
+            given_of: FxHashSet::default(),
             base_pose_facts: BasePoseFacts::default(),
         };
         scene_facts::facts(library, &mut environment);
@@ -125,6 +128,8 @@ impl Environment {
         if fact.args.iter().any(Option::is_none) {
             self.forget_given(&fact);
         }
+        let of = key(&fact);
+        self.given_of.extend((0..fact.args.len()).map(|index| (fact.fluent, index, of.arg(index))));
         self.given.push((fact, value));
     }
 
@@ -142,6 +147,11 @@ impl Environment {
 
     /// Drops earlier entries that a fact covers.
     fn forget_given(&mut self, fact: &Fact) {
+        let known = fact.args.iter().enumerate().filter(|(_, arg)| arg.is_some());
+        let mut places = known.map(|(index, _)| (fact.fluent, index, key(fact).arg(index)));
+        if places.any(|place| !self.given_of.contains(&place)) {
+            return;
+        }
         self.given.retain(|(given, _)| {
             given.fluent != fact.fluent
                 || !fact.args.iter().zip(&given.args).all(|(of, given)| of.is_none() || of == given)

@@ -7,6 +7,7 @@
 //!
 //! All policies share the facts at the start; the writes of a policy lie above them.
 
+pub(crate) mod effort;
 mod path;
 mod table;
 mod value;
@@ -203,7 +204,9 @@ impl<'w> FactStore<'w> {
         });
         self.trail = trail;
         let Some(table) = self.tables.get_mut(fluent.index()) else { return };
+        effort::spend(effort::WRITE);
         table.drop_covered(key, |cell| {
+            effort::spend(effort::WRITE);
             let undo = Undo::Put(cell.value, cell.time);
             self.trail.push(TrailEntry { fluent, key: cell.key, undo, before: cell.value });
         });
@@ -214,6 +217,7 @@ impl<'w> FactStore<'w> {
     }
 
     fn set_single(&mut self, fluent: Fluent, key: FactKey, value: TruthSet) {
+        effort::spend(effort::WRITE);
         let time = u32::try_from(self.trail.len()).unwrap_or(u32::MAX);
         let (start, is_symbolic) = (self.start, self.is_symbolic(fluent, key));
         let Some(table) = self.tables.get_mut(fluent.index()) else { return };
@@ -299,6 +303,7 @@ impl<'w> FactStore<'w> {
     }
 
     fn ranks(&self, mark: usize) -> Vec<Rank> {
+        effort::spend(self.trail.len() - mark.min(self.trail.len()));
         Rank::each_once(self.writes(mark).map(|(fluent, key, _)| Rank::of((fluent, key))))
     }
 

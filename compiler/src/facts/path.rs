@@ -3,8 +3,8 @@
 
 use std::hash::{Hash, Hasher};
 
-use super::FactStore;
 use super::value::{Atom, Rank, TruthSet};
+use super::{FactStore, effort};
 
 impl FactStore<'_> {
     /// Writes since `mark` with their last values: one path through a fork.
@@ -18,6 +18,7 @@ impl FactStore<'_> {
 
     /// Writes the facts of a path.
     pub(crate) fn replay(&mut self, path: &Delta) {
+        effort::spend(path.written.len());
         for (rank, value) in &path.written {
             let (fluent, key) = rank.atom();
             self.set(fluent, key, *value);
@@ -82,7 +83,9 @@ impl Delta {
         }
         let (fluent, key) = rank.atom();
         // Patterns stand first, the narrowest of them last: that one says most of this fact.
-        let patterns = self.written.iter().take_while(|(rank, _)| rank.is_pattern());
+        let count = self.written.partition_point(|(rank, _)| rank.is_pattern());
+        effort::spend(count);
+        let patterns = self.written.iter().take(count);
         let covering = patterns.filter(|(rank, _)| {
             let (other, pattern) = rank.atom();
             other == fluent && pattern.covers(key)
@@ -135,6 +138,7 @@ impl FactStore<'_> {
             return PathPartition::default();
         }
         let ranks = Rank::each_once(paths.iter().flat_map(Delta::ranks));
+        effort::spend(paths.len() * ranks.len());
         let mut values = Vec::with_capacity(paths.len() * ranks.len());
         for path in paths {
             values.extend(ranks.iter().map(|rank| path.at(self, *rank)));

@@ -3,7 +3,7 @@
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
-use super::{FactKey, TruthSet};
+use super::{FactKey, TruthSet, effort};
 
 /// Value of a fact or a pattern.
 #[derive(Clone, Copy, Debug)]
@@ -102,13 +102,16 @@ impl FluentTable {
     /// Visits all single facts with an entry.
     pub(super) fn singles(&self, mut take: impl FnMut(&TableEntry)) {
         self.rows.for_each(|cells| {
+            effort::spend(cells.len());
             cells.iter().filter(|cell| !cell.key.is_pattern()).for_each(&mut take);
         });
     }
 
     /// Entries with the same first argument as a key, perhaps among others.
     fn row(&self, key: FactKey) -> &[TableEntry] {
-        key.head().map_or(&self.wide, |head| self.rows.with(head))
+        let row = key.head().map_or(self.wide.as_slice(), |head| self.rows.with(head));
+        effort::spend(row.len());
+        row
     }
 
     /// Value of a fact or a pattern: its own entry, or else that of the latest pattern that covers it.
@@ -150,6 +153,7 @@ impl FluentTable {
     /// Visits the entries that a pattern covers: single facts, patterns, and the pattern itself.
     pub(super) fn covered(&self, pattern: FactKey, mut take: impl FnMut(&TableEntry)) {
         let mut visit = |cells: &[TableEntry]| {
+            effort::spend(cells.len());
             for cell in cells.iter().filter(|cell| pattern.covers(cell.key)) {
                 take(cell);
             }
@@ -171,6 +175,7 @@ impl FluentTable {
 
     fn each_crossing(&self, pattern: FactKey, mut take: impl FnMut(FactKey)) {
         let mut visit = |cells: &[TableEntry]| {
+            effort::spend(cells.len());
             cells.iter().filter_map(|cell| cell.key.crossing(pattern)).for_each(&mut take);
         };
         visit(&self.wide);

@@ -3,6 +3,7 @@
 use motet_syntax::ast::{EndKind, Policy, PrimitiveKind};
 use motet_syntax::unit::{Dimension, Unit};
 use motet_syntax::{Diagnostic, Span};
+use rustc_hash::FxHashSet;
 use smol_str::SmolStr;
 
 use super::errors::{
@@ -178,12 +179,16 @@ pub(super) fn check_descriptions(
     environment: &Environment,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
+    let items: FxHashSet<usize> = program
+        .steps
+        .iter()
+        .filter_map(
+            |step| if let StepKind::Each { item, .. } = &step.kind { Some(item.index()) } else { None },
+        )
+        .collect();
     for (index, binding) in program.bindings.iter().enumerate() {
         for span in binding.unused().filter(|_| !binding.name.starts_with('_')) {
-            let of_each = program
-                .steps
-                .iter()
-                .any(|step| matches!(&step.kind, StepKind::Each { item, .. } if item.index() == index));
+            let of_each = items.contains(&index);
             diagnostics.push(Unused { span, name: binding.name.clone(), of_each }.into());
         }
     }

@@ -11,7 +11,7 @@ use super::{CertainFact, Mode, NeedVerdict, NeedVerdicts, Problem, Prover};
 use crate::analysis::{Domain, Enclosing};
 use crate::declare::{EffectDef, LastsDef, NeedDef, PrimitiveDef, ResourceSet};
 use crate::environment::base_pose_facts;
-use crate::facts::{ANY, Cause, FactKey, TruthSet};
+use crate::facts::{ANY, Cause, FactKey, TruthSet, effort};
 use crate::ir::{
     Base, BindingId, Call, Condition, Entity, Fluent, MotionKind, Reaction, StepId, StepKind, Term, Ty, When,
 };
@@ -239,7 +239,7 @@ impl<'a> Prover<'a> {
         let mut verdicts = NeedVerdicts::new();
         // What it needs of a thing that it cannot be given at all is beside the point.
         let mut is_misgiven = false;
-        for need in def.needs.iter().take(count) {
+        for need in def.needs.iter().take(count).take_while(|_| !effort::is_used_up()) {
             let (value, culprit) = self.need(need, frame);
             let verdict = if value.no.is_some() {
                 let frame = CallFrame { each: culprit, ..frame };

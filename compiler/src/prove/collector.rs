@@ -7,7 +7,7 @@ use smallvec::SmallVec;
 use super::Prover;
 use super::assume::MAX_PATHS;
 use crate::analysis::Enclosing;
-use crate::facts::{Atom, Delta, FactKey, FactStore, TruthSet};
+use crate::facts::{Atom, Delta, FactKey, FactStore, TruthSet, effort};
 use crate::ir::Fluent;
 
 /// Join of states, as changes since a mark.
@@ -59,6 +59,7 @@ impl Collector {
             return;
         }
         let from = last.unwrap_or(self.mark);
+        effort::spend(2 * facts.mark().saturating_sub(from));
         self.pending.reserve(facts.mark().saturating_sub(from));
         // Single facts first: one that is new here had, until now, the values of the patterns that cover it.
         for patterns in [false, true] {

@@ -13,7 +13,7 @@ use super::evaluation::CallFrame;
 use super::{MAX_FIXPOINTS, PolicyEnd, Prover, Volatile};
 use crate::analysis::{Domain, Enclosing, Exit, Loop, Round};
 use crate::declare::Library;
-use crate::facts::{Atom, Cause, Delta, TruthSet, show};
+use crate::facts::{Atom, Cause, Delta, TruthSet, effort, show};
 use crate::ir::{BindingId, Call, Catch, Condition, Failure, Program, StepId, StepKind, TIMEOUT, When};
 
 impl<'a> Domain<'a> for Prover<'a> {
@@ -116,8 +116,11 @@ impl<'a> Domain<'a> for Prover<'a> {
     }
 
     fn enter(&mut self, id: StepId) -> bool {
-        self.control.work += 1 + self.state.volatile.len();
-        if self.is_exhausted() {
+        let visits = 1 + self.state.volatile.len();
+        self.control.work += visits;
+        effort::spend(effort::VISIT * visits);
+        if self.is_exhausted() || self.has_too_many_errors() {
+            self.control.given_up.get_or_insert(id);
             return false;
         }
         if self.target.point == Some(id) {

@@ -5,7 +5,7 @@ use motet_syntax::ast::{CompareOp, PrimitiveKind};
 use super::Prover;
 use super::call::pose_step;
 use super::evaluation::{CallFrame, MAX_ALIASES};
-use crate::facts::{ANY, Atom, Cause, FactKey, TruthSet};
+use crate::facts::{ANY, Atom, Cause, FactKey, TruthSet, effort};
 use smallvec::SmallVec;
 use smol_str::SmolStr;
 
@@ -60,7 +60,7 @@ impl Prover<'_> {
     /// Computes the changes of effects in the present state.
     pub(crate) fn changes(&self, effects: &[EffectDef], frame: CallFrame<'_>, changes: &mut Vec<FactChange>) {
         changes.clear();
-        for effect in effects {
+        for effect in effects.iter().take_while(|_| !effort::is_used_up()) {
             match effect.each {
                 None => self.change(effect, frame, changes),
                 Some(kind) => self.change_each(effect, kind, frame, changes),
@@ -71,6 +71,7 @@ impl Prover<'_> {
     }
 
     fn change(&self, effect: &EffectDef, frame: CallFrame<'_>, changes: &mut Vec<FactChange>) {
+        effort::spend(effort::WRITE);
         let sure = effect
             .when
             .as_ref()
@@ -124,6 +125,7 @@ impl Prover<'_> {
         for entity in named.filter(|entity| known.binary_search(entity).is_err()) {
             self.change(effect, CallFrame { each: Some(entity), ..frame }, changes);
         }
+        effort::spend(self.symbols.len().1);
         for (entity, symbol) in self.symbols.iter() {
             let first = changes.len();
             if self.library.is_kind(symbol.kind, kind) || self.library.is_kind(kind, symbol.kind) {
@@ -340,6 +342,7 @@ impl Prover<'_> {
 
     /// Returns whether a branch beside the present one may change a fact, or one of a pattern.
     fn is_disturbed(&self, fluent: Fluent, key: FactKey) -> bool {
+        effort::spend(self.control.disturbed.len());
         self.control.disturbed.iter().any(|(other, changed)| {
             *other == fluent
                 && (key.meets(*changed) || self.has_symbol(fluent, key) || self.has_symbol(fluent, *changed))

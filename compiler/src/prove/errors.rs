@@ -93,13 +93,13 @@ motet_syntax::mistakes! {
     message(m) {
         match m.limit {
             Some(limit) => format!("loops, monitors and parallel branches are nested more than {limit} deep"),
-            None => "the nested loops, monitors and parallel branches are too many to prove".to_owned(),
+            None => "the proof takes too long, and is given up at this step".to_owned(),
         }
     }
     help(m) {
         Some(match m.limit {
             Some(_) => "reduce the nesting".to_owned(),
-            None => "reduce the nesting, or the reactions that go on with `resume`".to_owned(),
+            None => "reduce the nesting, the reactions that go on with `resume`, or the steps".to_owned(),
         })
     }
 

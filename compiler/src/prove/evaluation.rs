@@ -4,7 +4,7 @@ use motet_syntax::ast::{ArithOp, CompareOp};
 use smallvec::SmallVec;
 
 use super::Prover;
-use crate::facts::{ANY, Cause, FactKey, TruthSet};
+use crate::facts::{ANY, Cause, FactKey, TruthSet, effort};
 use crate::ir::{Base, Catch, Condition, Entity, Fact, Fluent, Kind, StepKind, Term};
 
 /// Meaning of a contract's parameters, result and quantified variable at one call.
@@ -119,6 +119,7 @@ impl Prover<'_> {
 
     /// Entities of a kind in the environment, at most `most`.
     pub(crate) fn of_kind(&self, kind: Kind, most: usize) -> Vec<Entity> {
+        effort::spend(self.environment.entities().len());
         let entities = self.environment.entities().iter();
         let fitting = entities.filter(|(.., other)| self.library.is_kind(*other, kind));
         fitting.map(|(id, ..)| id).take(most).collect()
@@ -126,6 +127,11 @@ impl Prover<'_> {
 
     /// Possible values of a condition.
     pub(crate) fn evaluate(&self, condition: &Condition, frame: CallFrame<'_>) -> TruthSet {
+        effort::spend(1);
+        if effort::is_used_up() {
+            // The proof is given up at the next step.
+            return TruthSet::NOTHING_KNOWN;
+        }
         match condition {
             Condition::Literal(value) => TruthSet::of(*value, Cause::NOTHING),
             // An error that was reported: neither it nor its negation is refuted.

@@ -292,9 +292,7 @@ impl Prover<'_> {
         if let Some(end) = end.filter(|_| self.control.live) {
             self.notify(Problem::RefutedGoal { goal, end }, &mistake);
         }
-        if !self.diagnostics.contains(&mistake) {
-            self.diagnostics.push(mistake);
-        }
+        self.tell_once(mistake);
     }
 
     /// Span of the step behind a cause.

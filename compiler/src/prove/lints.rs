@@ -52,12 +52,12 @@ impl Prover<'_> {
         if let Some((subgoal, object, since)) = holding {
             let mistake: Diagnostic = EndsHolding { span, object, since }.into();
             self.notify_ending(subgoal, end, &mistake);
-            self.warn(mistake);
+            self.tell_once(mistake);
         }
         if let Some((subgoal, container, since)) = open {
             let mistake: Diagnostic = LeftOpen { span, container, since }.into();
             self.notify_ending(subgoal, end, &mistake);
-            self.warn(mistake);
+            self.tell_once(mistake);
         }
     }
 
@@ -81,13 +81,6 @@ impl Prover<'_> {
     fn notify_ending(&mut self, fact: (Fluent, FactKey, bool), end: Option<PolicyEnd>, mistake: &Diagnostic) {
         if let Some(end) = end.filter(|_| self.control.live) {
             self.notify(Problem::UnintendedFact { fact, end }, mistake);
-        }
-    }
-
-    /// Reports a warning once.
-    fn warn(&mut self, mistake: Diagnostic) {
-        if !self.diagnostics.contains(&mistake) {
-            self.diagnostics.push(mistake);
         }
     }
 
@@ -235,6 +228,8 @@ impl Prover<'_> {
         };
         let needs = self.show(&need.condition, true, frame);
         let maker = self.cause_name(row.value.open);
-        self.warn(ReactionBreaks { span: when, callee: def.name.clone(), needs, maker, step: span }.into());
+        self.tell_once(
+            ReactionBreaks { span: when, callee: def.name.clone(), needs, maker, step: span }.into(),
+        );
     }
 }

@@ -22,7 +22,8 @@ pub(crate) mod suspended;
 pub(crate) mod symbols;
 pub(crate) mod tested;
 
-use motet_syntax::{Diagnostic, Span};
+use motet_syntax::ast::MAX_MISTAKES;
+use motet_syntax::{Diagnostic, Severity, Span};
 use rustc_hash::{FxHashMap, FxHashSet};
 use smallvec::SmallVec;
 
@@ -38,7 +39,7 @@ use self::tested::TestTable;
 use crate::analysis::{Domain, Enclosing};
 use crate::declare::{Library, PrimitiveDef};
 use crate::environment::Environment;
-use crate::facts::{Atom, FactKey, FactStore, PathPartition, TruthSet};
+use crate::facts::{Atom, FactKey, FactStore, PathPartition, TruthSet, effort};
 use crate::ir::{Condition, Entity, Fluent, Measure, Program, StepId};
 
 /// Maximal nesting of loops and parallel branches: each level is proved at least twice.
@@ -199,6 +200,10 @@ pub(crate) struct Control {
     rehearsals: usize,
     /// Visits of steps so far. Each counts once, and once more for each fact that a reaction may change.
     work: usize,
+    /// The step at which the proof was given up.
+    given_up: Option<StepId>,
+    /// Number of the diagnostics that were counted, and of the errors among them.
+    counted: (usize, usize),
 }
 
 /// Purpose of a proof.
@@ -284,8 +289,10 @@ pub(crate) fn prove(
     }
     if prover.is_exhausted() {
         // What was not visited may be reachable.
-        prover.diagnostics.push(TooDeep { span: program.span, limit: None }.into());
-    } else {
+        let step = prover.control.given_up.and_then(|id| program.step(id));
+        let span = step.map_or(program.span, |step| step.span);
+        prover.diagnostics.push(TooDeep { span, limit: None }.into());
+    } else if prover.control.given_up.is_none() {
         prover.report_unreached();
     }
     (prover.proof, prover.diagnostics)
@@ -334,7 +341,24 @@ impl<'a> Prover<'a> {
 
     /// Returns whether the proof has taken too long, and was given up.
     pub(crate) fn is_exhausted(&self) -> bool {
-        self.control.work > MAX_WORK.max(MAX_WORK_OF_STEP * self.program.steps.len())
+        self.control.work > MAX_WORK.max(MAX_WORK_OF_STEP * self.program.steps.len()) || effort::is_used_up()
+    }
+
+    /// Returns whether there are more errors than are told.
+    fn has_too_many_errors(&mut self) -> bool {
+        let (seen, errors) = self.control.counted;
+        let known = if seen > self.diagnostics.len() { (0, 0) } else { (seen, errors) };
+        let more = self.diagnostics.iter().skip(known.0);
+        let errors = known.1 + more.filter(|found| found.severity == Severity::Error).count();
+        self.control.counted = (self.diagnostics.len(), errors);
+        errors > MAX_MISTAKES
+    }
+
+    /// Adds a diagnostic that a path before this one may have found.
+    fn tell_once(&mut self, said: Diagnostic) {
+        if !self.diagnostics.iter().any(|told| told.span == said.span && *told == said) {
+            self.diagnostics.push(said);
+        }
     }
 
     /// Notifies the observer of a problem.

@@ -330,9 +330,7 @@ impl<'a> Prover<'a> {
         let holds = self.show(&when.condition, true, CallFrame::default());
         let fired = self.program.step(id).map(|step| step.span);
         let mistake = Diagnostic::from(BodyFires { span: when.span, step, holds, fired });
-        if !self.diagnostics.contains(&mistake) {
-            self.diagnostics.push(mistake);
-        }
+        self.tell_once(mistake);
     }
 
     /// Weakens the facts that a reaction may just have changed.

@@ -20,6 +20,7 @@ pub(crate) struct Symbol {
     pub(crate) kind: Kind,
     /// Entities that it may be; `None` for any of its kind.
     pub(crate) may_be: Option<Vec<Entity>>,
+    binding: usize,
 }
 
 /// Entities that fit the descriptions of a binding; `None` if it may be another one on some path.
@@ -84,11 +85,12 @@ impl Symbols {
         self.symbols.truncate(symbols);
     }
 
+    /// Adds the symbol of the binding that is added next.
     fn add(&mut self, kind: Kind, may_be: Option<Vec<Entity>>) -> Option<Entity> {
         // The last number stands for `any`.
         let index =
             u16::try_from(self.symbols.len()).ok()?.checked_add(self.first).filter(|id| *id < u16::MAX)?;
-        self.symbols.push(Symbol { kind, may_be });
+        self.symbols.push(Symbol { kind, may_be, binding: self.bindings.len() });
         Some(Entity(index))
     }
 
@@ -102,8 +104,7 @@ impl Symbols {
 
     /// The binding of a symbol.
     pub(crate) fn binding_of(&self, entity: Entity) -> Option<usize> {
-        self.get(entity)?;
-        self.bindings.iter().position(|bound| *bound == Some(entity))
+        Some(self.get(entity)?.binding)
     }
 
     /// The symbols, in the order of their bindings.

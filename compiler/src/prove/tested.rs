@@ -7,7 +7,7 @@
 use motet_syntax::ast::CompareOp;
 
 use super::Prover;
-use crate::facts::{Cause, Delta, FactKey, TruthSet};
+use crate::facts::{Cause, Delta, FactKey, TruthSet, effort};
 use crate::ir::{BindingId, Condition, Fluent, Program, Term, Ty};
 
 /// Maximal number of different tests of a policy that are remembered.
@@ -160,6 +160,7 @@ impl Prover<'_> {
     /// Outcome of a comparison, as far as earlier tests show it. O(tests).
     pub(super) fn recall(&self, op: CompareOp, left: &Term, right: &Term) -> TruthSet {
         let Some(test) = Test::new(op, left, right) else { return TruthSet::NOTHING_KNOWN };
+        effort::spend(self.tested.tests.len());
         for (index, known) in self.tested.tests.iter().enumerate() {
             let Some(key) = key(index) else { break };
             let value = self.state.facts.get(self.tested.fluent, key);

@@ -21,6 +21,9 @@ use crate::declare::name::{list, near};
 use crate::declare::{notation, words};
 use crate::ir::{self, Base, BlockSlot, StepId, StepKind, StepPosition, Term, Ty};
 
+/// Greatest number of arguments of a call: each is looked for among the others.
+const MAX_ARGUMENTS: usize = 256;
+
 /// A parameter from the view of a call.
 struct FormalParam<'p> {
     name: &'p SmolStr,
@@ -35,6 +38,11 @@ impl StepResolver<'_> {
     pub(super) fn call(&mut self, call: &Do, span: Span, position: StepPosition) -> Option<StepId> {
         let library = self.elaborator.library;
         let name = &call.call.name.text;
+        if let Some(arg) = call.call.args.get(MAX_ARGUMENTS) {
+            let (span, callee, most) = (arg.span, name.clone(), MAX_ARGUMENTS);
+            self.elaborator.report(TooManyArguments { span, callee, most, twice: None });
+            return self.unknown(span, position);
+        }
         if self.calls.contains(name) {
             self.elaborator.report(Recursion { span: call.call.name.span, name: name.clone() });
             return self.unknown(span, position);
@@ -105,9 +113,10 @@ impl StepResolver<'_> {
 
     /// Marks the names in the arguments of an unknown callee as used, without reports.
     fn use_names(&mut self, expr: &Expr) {
-        let said = self.elaborator.diagnostics.len();
+        let (said, counted) = (self.elaborator.diagnostics.len(), self.elaborator.counted);
         self.elaborator.term(expr, None);
         self.elaborator.diagnostics.truncate(said);
+        self.elaborator.counted = counted;
     }
 
     fn primitive(

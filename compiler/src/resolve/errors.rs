@@ -46,18 +46,22 @@ motet_syntax::mistakes! {
 
     /// Policy that is too large after inlining, or a parallel block with too many branches: each is proved
     /// beside all others.
-    TooManySteps("M0212", Error) { limit: usize, branches: Option<usize> }
+    TooManySteps("M0212", Error) { limit: usize, branches: Option<(usize, &'static str)> }
     message(m) {
         match m.branches {
-            Some(found) => {
+            Some((found, "parallel")) => {
                 format!("the `parallel` has {found} branches, but at most {} may run at once", m.limit)
+            }
+            Some((found, what)) => {
+                format!("the `{what}` watches {found} conditions, but at most {} may be watched", m.limit)
             }
             None => format!("the policy has more than {} steps, with its sub-policies inlined", m.limit),
         }
     }
     help(m) {
         Some(match m.branches {
-            Some(_) => "let some of them run one after the other".to_owned(),
+            Some((_, "parallel")) => "let some of them run one after the other".to_owned(),
+            Some(_) => "join some of them by `or`, or leave some out".to_owned(),
             None => "use `repeat` or `each` instead of copies of steps".to_owned(),
         })
     }

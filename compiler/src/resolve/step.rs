@@ -1,8 +1,8 @@
 //! Resolution of steps and blocks.
 
 use motet_syntax::ast::{
-    Block, Catch, CatchOn, CompareOp, End, EndKind, Expr, Keep, KeepKind, Name, Policy, Reaction, Step,
-    StepKind, When,
+    Block, Catch, CatchOn, CompareOp, End, EndKind, Expr, Keep, KeepKind, MAX_NESTING, Name, Policy,
+    Reaction, Step, StepKind, When,
 };
 use motet_syntax::{Diagnostic, Span, Syntax};
 use smallvec::{SmallVec, smallvec};
@@ -20,7 +20,10 @@ use crate::ir::{self, Binding, BindingId, BlockSlot, Condition, Program, StepId,
 
 /// Maximal number of steps of a policy with its sub-policies inlined.
 pub const MAX_NODES: usize = 100_000;
-/// Greatest number of branches of a parallel block: each is proved beside all others.
+/// Greatest nesting of blocks with those of the policies that are called: every stage descends into them.
+const MAX_DEPTH: usize = 4 * MAX_NESTING;
+/// Greatest number of branches of a parallel block, and of conditions of a monitor or rules of a `keep`: each
+/// is proved beside all others.
 const MAX_BRANCHES: usize = 256;
 
 /// Default deadline of a `wait` or `pause`, in seconds.
@@ -46,7 +49,10 @@ pub(super) struct StepResolver<'a> {
     pub(super) point: Option<Span>,
     /// The scope there.
     pub(super) scope_at_point: Option<Scope>,
+    /// True if no more steps are resolved: there are too many, or too many errors.
     full: bool,
+    /// Number of blocks around.
+    depth: usize,
 }
 
 impl<'a> StepResolver<'a> {
@@ -63,6 +69,7 @@ impl<'a> StepResolver<'a> {
             point: None,
             scope_at_point: None,
             full: false,
+            depth: 0,
         }
     }
 
@@ -105,6 +112,10 @@ impl<'a> StepResolver<'a> {
         }
         self.program.body = self.whole(policy, None);
         self.check_given(policy);
+        if self.full {
+            // What is not resolved may use any of them.
+            self.elaborator.bindings.iter_mut().for_each(|binding| binding.uses += 1);
+        }
         let mut program = std::mem::take(&mut self.program);
         program.bindings = std::mem::take(&mut self.elaborator.bindings);
         program
@@ -159,19 +170,30 @@ impl<'a> StepResolver<'a> {
 
     /// Resolves a block, whose names stay visible.
     pub(super) fn block(&mut self, block: &Block, parent: Option<StepId>, slot: BlockSlot) -> ir::Block {
+        if self.depth >= MAX_DEPTH {
+            self.elaborator.report(motet_syntax::errors::too_deep(block.span, MAX_DEPTH));
+            return Vec::new();
+        }
+        self.depth += 1;
+        let steps = self.steps(block, parent, slot);
+        self.depth -= 1;
+        steps
+    }
+
+    fn steps(&mut self, block: &Block, parent: Option<StepId>, slot: BlockSlot) -> ir::Block {
         let mut steps = Vec::with_capacity(block.steps.len());
         for (index, step) in (0_u32..).zip(block.written()) {
+            self.full |= self.elaborator.has_too_many_errors();
+            if self.full {
+                break;
+            }
             let position = StepPosition { parent, slot, index };
             let id = match step {
                 Some(step) => self.step(step, position),
                 None => self.gap(block.span, position),
             };
             steps.append(&mut self.before);
-            match id {
-                Some(id) => steps.push(id),
-                None if self.full => break,
-                None => {}
-            }
+            steps.extend(id);
         }
         steps
     }
@@ -312,8 +334,10 @@ impl<'a> StepResolver<'a> {
                 ir::StepKind::Finally { body, cleanup }
             }
             StepKind::Monitor { whens, body } => {
-                let whens =
-                    whens.iter().enumerate().map(|(index, when)| self.when(when, id, index)).collect();
+                let beyond = whens.get(MAX_BRANCHES).map(|when| when.span);
+                self.check_watched(whens.len(), "monitor", beyond);
+                let numbered = whens.iter().enumerate().take(MAX_BRANCHES);
+                let whens = numbered.map(|(index, when)| self.when(when, id, index)).collect();
                 ir::StepKind::Monitor { whens, body: self.only_block(body, (id, BlockSlot::During)) }
             }
             StepKind::Within { time, body } => {
@@ -364,7 +388,11 @@ impl<'a> StepResolver<'a> {
                 let mut fork = self.fork(id);
                 let (found, limit) = (branches.len(), MAX_BRANCHES);
                 if found > limit {
-                    self.elaborator.report(TooManySteps { span: step.span, limit, branches: Some(found) });
+                    self.elaborator.report(TooManySteps {
+                        span: step.span,
+                        limit,
+                        branches: Some((found, "parallel")),
+                    });
                 }
                 let numbered = branches.iter().enumerate().take(limit);
                 let branches = numbered.map(|(index, block)| {
@@ -465,7 +493,16 @@ impl<'a> StepResolver<'a> {
 
     /// Resolves the rules of a `keep` to the conditions of a monitor, which pauses where a rule is broken.
     fn keeps(&mut self, keeps: &[Keep]) -> Vec<ir::When> {
-        keeps.iter().map(|keep| self.kept(keep)).collect()
+        self.check_watched(keeps.len(), "keep", keeps.get(MAX_BRANCHES).map(|keep| keep.span));
+        keeps.iter().take(MAX_BRANCHES).map(|keep| self.kept(keep)).collect()
+    }
+
+    /// Reports more conditions than a step may watch; `beyond` is the span of the first of them.
+    fn check_watched(&mut self, found: usize, what: &'static str, beyond: Option<Span>) {
+        if let Some(span) = beyond {
+            let branches = Some((found, what));
+            self.elaborator.report(TooManySteps { span, limit: MAX_BRANCHES, branches });
+        }
     }
 
     fn kept(&mut self, keep: &Keep) -> ir::When {

@@ -61,6 +61,13 @@ fn generated(words: &[&str]) -> Option<Vec<u8>> {
             let steps = "say(\"x\")\n".repeat(count(n)?);
             Some(format!("policy long {{\n{steps}}}\n").into_bytes())
         }
+        ["mistakes", n] => {
+            Some(format!("policy wrong {{ {} }}\n", "wavee()\n".repeat(count(n)?)).into_bytes())
+        }
+        ["warnings", n] => {
+            let names: String = (0..count(n)?).map(|index| format!("let a{index} = 1\n")).collect();
+            Some(format!("policy idle {{\n{names}say(\"x\") }}\n").into_bytes())
+        }
         ["words", n] => {
             let list = "0,".repeat(count(n)? / 2);
             Some(format!("policy long {{ choose(\"x\", [{list}0]) }}\n").into_bytes())

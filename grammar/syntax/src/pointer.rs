@@ -282,7 +282,9 @@ impl PointerWalk<'_> {
     }
 
     fn members(&mut self, members: &[Expr]) {
-        let _ = members.iter().enumerate().any(|(index, member)| self.expr(&index.to_string(), member));
+        // They stand in order, as the steps of a block do.
+        let index = members.partition_point(|member| member.span.end < self.span.end);
+        let _ = members.get(index).is_some_and(|member| self.expr(&index.to_string(), member));
     }
 
     /// A key whose value is only pointed into: without a member that contains the span it is left out again.

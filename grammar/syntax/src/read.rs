@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use crate::ast::{File, MAX_BYTES};
 use crate::diagnostic::Diagnostic;
-use crate::errors::{IgnoredPart, IgnoredProse, NoDocument, NotUtf8, TooLarge};
+use crate::errors::{self, IgnoredPart, IgnoredProse, NoDocument, NotUtf8, TooLarge};
 use crate::located::{Located, end_of_value};
 use crate::source::{FileId, Source, Span, Syntax};
 use crate::text::lexer::{Token, TokenKind, Tokens, tokens};
@@ -113,6 +113,8 @@ fn whole(document: &str, file: FileId) -> Parsed {
             (file, found, written.map(Arc::new))
         }
     };
+    // It is refused, and what was read before the limit would take as long to check as a document within it.
+    let file = if errors::is_cut(&diagnostics) { File::default() } else { file };
     Parsed { file, syntax, text: Arc::default(), diagnostics, written }
 }
 

@@ -4,7 +4,7 @@
 ///
 /// Case, `_`, `-` and spaces do not count, and a candidate that is a whole word of `name` (`pick` in
 /// `pick_up`) or with which it begins (`holding` and `hold`), or the other way round, is close. Ties go to
-/// the earlier candidate. O(candidates × length²).
+/// the earlier candidate. O(candidates × length²), within [`MAX_WORK`].
 ///
 /// ```
 /// use motet_syntax::suggest::closest;
@@ -14,10 +14,14 @@
 /// ```
 #[must_use]
 pub fn closest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
+    if name.len() > MAX_NAME {
+        return None;
+    }
     let folded = fold(name);
     let mut best: Option<(usize, &'c str)> = None;
-    for candidate in candidates {
-        let Some(distance) = distance(name, &folded, candidate) else { continue };
+    let mut work = 0;
+    for candidate in candidates.into_iter().filter(|candidate| candidate.len() <= MAX_NAME) {
+        let Some(distance) = distance(name, &folded, candidate, &mut work) else { continue };
         if best.is_none_or(|(least, _)| distance < least) {
             best = Some((distance, candidate));
         }
@@ -25,17 +29,27 @@ pub fn closest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) ->
     best.map(|(_, candidate)| candidate)
 }
 
+/// Longest name that has a closest one, in bytes: longer ones are nobody's misspelling.
+const MAX_NAME: usize = 200;
+/// Most pairs of letters that are compared for one name.
+const MAX_WORK: usize = 1_000_000;
+
 /// Distance of a candidate, in hundredths of a misspelling; `None` where it is too far.
-fn distance(name: &str, folded: &str, candidate: &str) -> Option<usize> {
+fn distance(name: &str, folded: &str, candidate: &str, work: &mut usize) -> Option<usize> {
     let known = fold(candidate);
     if known == folded {
         return Some(0);
     }
-    let longer = folded.chars().count().max(known.chars().count());
-    let edits = strsim::osa_distance(folded, &known);
+    let (letters, others) = (folded.chars().count(), known.chars().count());
+    let longer = letters.max(others);
     // One edit in short words, a third of the letters in long ones.
-    if longer >= 2 && edits <= (longer / 3).max(1) && edits < longer {
-        return Some(edits * 100);
+    let most = (longer / 3).max(1);
+    if longer >= 2 && letters.abs_diff(others) <= most && *work < MAX_WORK {
+        *work += letters * others;
+        let edits = strsim::osa_distance(folded, &known);
+        if edits <= most && edits < longer {
+            return Some(edits * 100);
+        }
     }
     let is_part =
         |part: &str, whole: &str| whole.split(['_', '-', ' ']).any(|word| word.eq_ignore_ascii_case(part));

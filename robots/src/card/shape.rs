@@ -2,6 +2,7 @@
 //! types, so that every wrong key is reported at once and at its place. Numbers and names are checked later,
 //! by the reader.
 
+use motet_syntax::ast::MAX_MISTAKES;
 use motet_syntax::located::{Located, LocatedValue, Mismatch, MismatchKind, Number, check_schema};
 use motet_syntax::{Diagnostic, FileId, Span, suggest};
 use toml::Spanned;
@@ -56,7 +57,9 @@ fn diagnostic(mismatch: Mismatch<'_>) -> Diagnostic {
     match kind {
         MismatchKind::UnknownKey { object, mut known } => {
             let near = near(&known);
-            known.retain(|key| !object.members().iter().any(|(written, _)| written.text() == Some(*key)));
+            // Of a section with very many keys the first are enough to tell what may be missing.
+            let written = object.members().iter().take(MAX_MISTAKES);
+            known.retain(|key| !written.clone().any(|(written, _)| written.text() == Some(*key)));
             UnknownKey { span, key: text(), near, known: owned(known) }.into()
         }
         MismatchKind::MissingKey { key: missing } => {

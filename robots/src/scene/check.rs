@@ -3,6 +3,7 @@
 
 use indexmap::IndexMap;
 use motet_stdlib::lang::kinds;
+use motet_syntax::ast::MAX_MISTAKES;
 use motet_syntax::json::Spanned;
 use motet_syntax::{Diagnostic, Span};
 use smol_str::SmolStr;
@@ -199,7 +200,7 @@ pub fn fit(scene: &Scene, urdf: &Urdf) -> Vec<Diagnostic> {
     let told = scene.robot.joints.iter().filter_map(|(name, value)| {
         JointPosition { joint: name, value: *value, span: place(name) }.fault(urdf)
     });
-    told.collect()
+    told.take(MAX_MISTAKES + 1).collect()
 }
 
 /// Checks numbers and collects diagnostics.

@@ -6,7 +6,7 @@ use motet_decode::export::TurnImage;
 use thiserror::Error;
 
 /// The largest image that is sent, in bytes: servers take no larger ones.
-pub const MAX_IMAGE_BYTES: usize = 20 << 20;
+pub const MAX_IMAGE_BYTES: usize = 16 << 20;
 
 /// An image, encoded once.
 ///

@@ -17,6 +17,9 @@ pub enum ProjectError {
     /// The path of a file names a folder.
     #[error("`{}` is a folder; expected a file", path.display())]
     Folder { path: PathBuf },
+    /// The path of a file names a named pipe, a device or a socket, which need not end.
+    #[error("`{}` is no regular file; give what a pipe says as `-` or `/dev/stdin`", path.display())]
+    Irregular { path: PathBuf },
     /// A file exceeds the size limit of the readers.
     #[error("`{}` is larger than {} MiB", path.display(), MAX_BYTES >> 20)]
     TooLarge { path: PathBuf },
@@ -71,6 +74,7 @@ impl ProjectError {
             ),
             Self::Read { .. }
             | Self::Folder { .. }
+            | Self::Irregular { .. }
             | Self::NotText { .. }
             | Self::Invalid { .. }
             | Self::FaultNames(_)

@@ -21,26 +21,42 @@ pub enum Bytes {
     TooMany(usize),
 }
 
+/// Opens a regular file, or a pipe that is open already: `/dev/stdin`, or the `/dev/fd/63` of a shell. To
+/// open a named pipe or a device may take for ever, and to read one too.
+///
+/// # Errors
+///
+/// [`ProjectError::Read`], [`ProjectError::Folder`] or [`ProjectError::Irregular`].
+pub fn open(path: &Path) -> Result<File, ProjectError> {
+    let fail = |source| ProjectError::Read { path: path.to_owned(), source };
+    let kind = path.metadata().map_err(fail)?.file_type();
+    if kind.is_dir() {
+        return Err(ProjectError::Folder { path: path.to_owned() });
+    }
+    let is_open_already = ["/dev/fd", "/dev/stdin", "/proc/self/fd"].iter().any(|of| path.starts_with(of));
+    if !kind.is_file() && !is_open_already {
+        return Err(ProjectError::Irregular { path: path.to_owned() });
+    }
+    File::open(path).map_err(fail)
+}
+
 /// Reads a file of at most [`MAX_BYTES`].
 ///
 /// # Errors
 ///
-/// [`ProjectError::Read`] or [`ProjectError::Folder`].
+/// Those of [`open`], and [`ProjectError::Read`].
 pub fn read_file(path: &Path) -> Result<Bytes, ProjectError> {
     let fail = |source| ProjectError::Read { path: path.to_owned(), source };
-    let file = File::open(path).map_err(fail)?;
-    let metadata = file.metadata().map_err(fail)?;
-    if metadata.is_dir() {
-        return Err(ProjectError::Folder { path: path.to_owned() });
-    }
-    read_bounded(file, usize::try_from(metadata.len()).ok()).map_err(fail)
+    let file = open(path)?;
+    let size = file.metadata().map_err(fail)?.len();
+    read_bounded(file, usize::try_from(size).ok()).map_err(fail)
 }
 
 /// Reads a file that must fit into [`MAX_BYTES`]: a card, a scene, a state or a domain.
 ///
 /// # Errors
 ///
-/// [`ProjectError::Read`], [`ProjectError::Folder`] or [`ProjectError::TooLarge`].
+/// Those of [`read_file`], and [`ProjectError::TooLarge`].
 pub fn read_small(path: &Path) -> Result<Vec<u8>, ProjectError> {
     match read_file(path)? {
         Bytes::All(bytes) => Ok(bytes),

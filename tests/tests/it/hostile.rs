@@ -3,17 +3,19 @@
 use motet_syntax::{FileId, Severity, Source, Sources};
 use motet_tests::setup;
 
-/// The codes that checking a document gives, each once.
-fn codes(text: &str) -> Vec<String> {
+/// The errors that checking a document gives: their codes, and the texts that they are about.
+fn errors(text: &str) -> Vec<(String, String)> {
     let mut sources = Sources::default();
     let (session, _) = setup::session(None, None, &mut sources);
     let source = Source::new("hostile", text);
     let said = session.check(&motet_syntax::read(&source, FileId(u16::MAX)));
-    let mut codes: Vec<_> = said
-        .iter()
-        .filter(|said| said.severity == Severity::Error)
-        .map(|said| said.code.to_string())
-        .collect();
+    let errors = said.iter().filter(|said| said.severity == Severity::Error);
+    errors.map(|said| (said.code.to_string(), source.slice(said.span).to_owned())).collect()
+}
+
+/// The codes that checking a document gives, each once.
+fn codes(text: &str) -> Vec<String> {
+    let mut codes: Vec<_> = errors(text).into_iter().map(|(code, _)| code).collect();
     codes.sort();
     codes.dedup();
     codes
@@ -83,6 +85,48 @@ fn session_twenty_nested_branches_do_not_explode() {
     let open = "if near(user) { go(user) ".repeat(depth);
     let close = "} else { say(\"x\") } ".repeat(depth);
     assert_eq!(codes(&format!("policy p {{ {open} {close} }}")), Vec::<String>::new());
+}
+
+#[test]
+fn session_mistakes_beyond_a_thousand_are_one_finding_at_the_first_of_them() {
+    let many = |part: &str| part.repeat(3_000);
+    let named: String = (0..3_000).map(|index| format!("policy p{index} {{ fly{index}x() }} ")).collect();
+    let keys: String = (0..3_000).map(|index| format!(r#""k{index}": 1, "#)).collect();
+    for text in [
+        json(&format!("{}1", many("1, "))),
+        json(&format!("{}{{}}", many("{}, "))),
+        json(&format!("{}[[1]]", many("[[1]], "))),
+        format!("policy p {{ {} }}", many("fly() ")),
+        format!("policy p {{ {} }}", many("pick(moon) ")),
+        format!("policy p {{ {} }}", many("pick(mug_1) ")),
+        format!("policy p {{ {} }}", many("if moon { fly() } ")),
+        named,
+        format!("{{{keys}{}", json("1").split_off(1)),
+        format!("{{{}{}", many(r#""steps": [], "#), json("1").split_off(1)),
+    ] {
+        let errors = errors(&text);
+        assert_eq!(errors.len(), 1001, "{:?}", text.get(..90));
+        let codes: Vec<&str> = errors.iter().map(|(code, _)| code.as_str()).collect();
+        assert_eq!(codes.iter().position(|code| *code == "M0124"), Some(1000), "{:?}", text.get(..90));
+    }
+}
+
+#[test]
+fn session_a_proof_of_very_many_facts_is_given_up_at_its_step() {
+    let steps: String = (0..20_000).map(|index| format!("let x{index} = detect(\"mug\") ")).collect();
+    let errors = errors(&format!("policy p {{ {steps} }}"));
+    let given_up = errors.iter().find(|(code, _)| code == "M0804").map(|(_, step)| step.as_str());
+    assert!(given_up.is_some_and(|step| step.starts_with("let x")), "{given_up:?}");
+}
+
+#[test]
+fn session_a_call_of_more_arguments_than_allowed_is_refused_at_the_first_of_them() {
+    let call = |count: usize| {
+        let keys: String = (0..count).map(|index| format!(r#", "k{index}": {index}"#)).collect();
+        errors(&json(&format!(r#"{{"do": "wave"{keys}}}"#)))
+    };
+    assert!(call(256).iter().all(|(code, _)| code != "M0304"));
+    assert_eq!(call(257), [("M0304".to_owned(), "\"k256\": 256".to_owned())]);
 }
 
 #[test]

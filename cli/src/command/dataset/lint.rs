@@ -8,8 +8,8 @@ use clap::Args;
 use motet_dataset::lint::{Finding, Linter, Place, RowFault, Shelf, Worlds};
 use motet_dataset::share::{Counts, Share};
 use motet_dataset::{Posture, format, picture};
-use motet_project::files::Bytes;
-use motet_project::{read_scene, robot_names};
+use motet_project::files::{Bytes, read_small};
+use motet_project::{ProjectError, read_scene, robot_names};
 use motet_robots::builtin::{self, BuiltinScene};
 use motet_robots::scene::{self, Scene};
 use motet_syntax::{FileId, Severity, Source, Sources};
@@ -209,8 +209,9 @@ impl Shelf for Images {
     fn fault(&mut self, file: &str, path: &str) -> Option<String> {
         let found = self.0.entry(folder(Path::new(file)).join(path));
         let place = found.key().clone();
-        let fault = found.or_insert_with(|| match fs::read(&place) {
+        let fault = found.or_insert_with(|| match read_small(&place) {
             Ok(bytes) => picture::fault(&bytes),
+            Err(ProjectError::Read { source, .. }) => Some(source.to_string()),
             Err(error) => Some(error.to_string()),
         });
         fault.as_ref().map(|why| format!("its image `{path}` cannot be used: {why}"))

@@ -24,7 +24,9 @@ pub const MAX_BYTES: usize = 16 * 1024 * 1024;
 /// The most steps that one document may hold.
 pub const MAX_STEPS: usize = 100_000;
 /// The most words, numbers, texts and marks (in JSON: keys and values) that one document may hold.
-pub const MAX_TOKENS: usize = 4_000_000;
+pub const MAX_TOKENS: usize = 1_000_000;
+/// The most mistakes that are told of one document: a stage that finds more leaves out the rest.
+pub const MAX_MISTAKES: usize = 1000;
 
 /// An identifier with its range.
 #[derive(Clone, Debug)]

@@ -4,7 +4,7 @@
 use smol_str::SmolStr;
 
 use super::replacement;
-use crate::ast::{MAX_BYTES, MAX_NESTING, MAX_STEPS, MAX_TOKENS};
+use crate::ast::{MAX_BYTES, MAX_MISTAKES, MAX_NESTING, MAX_STEPS, MAX_TOKENS};
 use crate::diagnostic::{Edit, Fix, Related};
 use crate::source::Span;
 use crate::suggest;
@@ -112,6 +112,11 @@ crate::mistakes! {
     TooManyTokens("M0118", Error) {}
     message(_m) { format!("the document has more than {MAX_TOKENS} words and values") }
     help(_m) { Some("split it into several files".into()) }
+
+    /// The document has more than [`MAX_MISTAKES`] mistakes. The span is the first that is not told.
+    TooManyMistakes("M0124", Error) {}
+    message(_m) { format!("there are more than {MAX_MISTAKES} mistakes: from here on they are not told") }
+    help(_m) { Some("mend the first of them, and check again".into()) }
 
     /// A reply holds no policy. The span is its first line.
     NoDocument("M0119", Error) {}

@@ -6,8 +6,8 @@ use super::term::{Condition, Duration, Form, Term};
 use super::wire::{self, ReactKind};
 use super::{Lenient, Spanned};
 use crate::ast::{
-    Block, Catch, CatchOn, Do, End, EndKind, Expr, ExprKind, Keep, KeepKind, MAX_NESTING, MAX_STEPS, Name,
-    Policy, Reaction, Step, StepKind, TypeExpr, When,
+    Block, Catch, CatchOn, Do, End, EndKind, Expr, ExprKind, Keep, KeepKind, MAX_MISTAKES, MAX_NESTING,
+    MAX_STEPS, Name, Policy, Reaction, Step, StepKind, TypeExpr, When,
 };
 use crate::diagnostic::Diagnostic;
 use crate::errors::{BadName, BadValue, MissingKey, ReservedKey, TooDeep, TooManySteps, UnknownKey};
@@ -54,6 +54,9 @@ impl Converter {
         }
         let (mut block, mut gaps) = (Vec::with_capacity(steps.value.len()), Vec::new());
         for (index, Lenient(step)) in (0_u32..).zip(steps.value) {
+            if self.found.len().max(gaps.len()) > MAX_MISTAKES {
+                break;
+            }
             let Some(step) = step else {
                 gaps.push(index);
                 continue;

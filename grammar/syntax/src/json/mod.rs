@@ -39,7 +39,8 @@ pub use crate::located::{Lenient, MAX_BRACKETS, Spanned};
 use crate::ast::{File, Item, MAX_BYTES};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::errors::{
-    BadValue, DocumentKind, Empty, MissingKey, NoForm, NumberRange, TooLarge, TwoForms, UnknownKey, WrongType,
+    self, BadValue, DocumentKind, Empty, MissingKey, NoForm, NumberRange, TooLarge, TwoForms, UnknownKey,
+    WrongType,
 };
 use crate::located::{self, Fault, Located, LocatedValue, Mismatch, MismatchKind};
 use crate::source::{FileId, Source, Span};
@@ -151,11 +152,17 @@ fn objects(text: &str, file: FileId) -> Option<Located<'static>> {
 impl PolicyDocument {
     /// Sorts the diagnostics, and gives each its pointer into the document as it is written.
     fn settle(&mut self, written: &Located<'_>) {
+        in_order(&mut self.found);
         for diagnostic in self.found.iter_mut().filter(|diagnostic| diagnostic.path.is_empty()) {
             diagnostic.path = written.pointer_at(diagnostic.span);
         }
-        self.found.sort_by_key(|diagnostic| diagnostic.span.start);
     }
+}
+
+/// Sorts the diagnostics of a document, and leaves out what is too much.
+fn in_order(found: &mut Vec<Diagnostic>) {
+    found.sort_by_key(|diagnostic| diagnostic.span.start);
+    errors::limit(found);
 }
 
 /// Reads the policy of a tree; pointers lead into `written`.
@@ -196,7 +203,7 @@ fn deserialize<'s, T: Deserialize<'s> + JsonSchema>(
     let (value, faults) = located::deserialize(tree);
     if !faults.is_empty() {
         found.extend(explain::<T>(tree, written, faults));
-        found.sort_by_key(|diagnostic| diagnostic.span.start);
+        in_order(found);
     }
     value
 }

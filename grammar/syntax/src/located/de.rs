@@ -15,6 +15,7 @@ use serde::de::{
 };
 
 use super::{LENIENT, Located, LocatedValue, Number, SPANNED};
+use crate::ast::MAX_MISTAKES;
 use crate::source::Span;
 use crate::words::DEADLINE;
 
@@ -104,7 +105,15 @@ impl<'t, 's> Reader<'t, 's> {
     }
 
     fn note(self, node: &Located<'_>, message: &str) {
-        self.faults.borrow_mut().push(Fault::of_shape(message).or_at(node));
+        self.refuse(node, || Fault::of_shape(message));
+    }
+
+    /// Keeps a mistake at a node, unless there are more than are told.
+    fn refuse(self, node: &Located<'_>, fault: impl FnOnce() -> Fault) {
+        let mut faults = self.faults.borrow_mut();
+        if faults.len() <= MAX_MISTAKES {
+            faults.push(fault().or_at(node));
+        }
     }
 
     /// The value itself; of a variant the value of its key, beside which there is no other key.
@@ -140,7 +149,9 @@ impl<'de> Deserializer<'de> for Reader<'_, 'de> {
             LocatedValue::Text(std::borrow::Cow::Owned(text)) => visitor.visit_str(text),
             LocatedValue::Date => Err(de::Error::invalid_type(Unexpected::Other("a date"), &visitor)),
             LocatedValue::Array(items) => {
-                visitor.visit_seq(SeqDeserializer::new(items.iter().map(|item| self.at(item))))
+                let is_told = |_: &&Located<'_>| self.faults.borrow().len() <= MAX_MISTAKES;
+                let items = items.iter().take_while(is_told).map(|item| self.at(item));
+                visitor.visit_seq(SeqDeserializer::new(items))
             }
             LocatedValue::Object(members) => visitor.visit_map(MapDeserializer::new(
                 members.iter().map(|(key, value)| (self.at(key), self.at(value))),
@@ -299,7 +310,7 @@ impl<'s> de::SeqAccess<'s> for Wrapped<'_, 's> {
         self.is_read = true;
         match seed.deserialize(self.reader) {
             Err(fault) if self.is_lenient => {
-                self.reader.faults.borrow_mut().push(fault.or_at(self.reader.node));
+                self.reader.refuse(self.reader.node, || fault);
                 Ok(None)
             }
             result => result.map(Some),

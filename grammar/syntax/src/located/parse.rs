@@ -8,7 +8,7 @@ use std::borrow::Cow;
 use rustc_hash::FxHashSet;
 
 use super::{Located, LocatedValue, Number};
-use crate::ast::{MAX_NESTING, MAX_TOKENS};
+use crate::ast::{MAX_MISTAKES, MAX_NESTING, MAX_TOKENS};
 use crate::diagnostic::Diagnostic;
 use crate::errors::{DuplicateKey, JsonSyntax, NumberRange, SyntaxFault, TooDeep, TooManyTokens};
 use crate::source::{FileId, Span};
@@ -129,7 +129,9 @@ impl<'s> Parser<'s> {
             match first {
                 Some(first) => {
                     let key = key.as_ref().into();
-                    self.diagnostics.push(DuplicateKey { key, span, first }.into());
+                    if self.diagnostics.len() <= MAX_MISTAKES {
+                        self.diagnostics.push(DuplicateKey { key, span, first }.into());
+                    }
                 }
                 None => members.push((Located { value: LocatedValue::Text(key), span }, value)),
             }

@@ -10,6 +10,7 @@ use rustc_hash::FxHashMap;
 use serde_json::Value as Json;
 
 use super::{Located, LocatedValue, Number, push_token};
+use crate::ast::MAX_MISTAKES;
 use crate::suggest;
 use crate::words::DEADLINE;
 
@@ -46,8 +47,8 @@ pub enum MismatchKind<'t> {
     TwoForms { first: &'t Located<'t> },
 }
 
-/// Compares a tree with a schema. Returns the mismatches in the order of the schema's objects. O(tree ×
-/// forms).
+/// Compares a tree with a schema. Returns the mismatches in the order of the schema's objects, at most one
+/// more than [`MAX_MISTAKES`]. O(tree × forms).
 ///
 /// ```
 /// # use motet_syntax::json;
@@ -166,6 +167,9 @@ impl<'t> SchemaView<'t> {
 
 impl<'t> SchemaCheck<'t> {
     fn value(&mut self, node: &'t Located<'t>, schema: &'t Json) {
+        if self.found.len() > MAX_MISTAKES {
+            return;
+        }
         let leaves = self.view.leaves(schema);
         // An optional struct is a struct, not an object with several forms.
         let is_struct = leaves.iter().filter(|leaf| types(leaf.schema) != ["null"]).count() == 1;
@@ -262,6 +266,9 @@ impl<'t> SchemaCheck<'t> {
     }
 
     fn report(&mut self, node: &'t Located<'t>, kind: MismatchKind<'t>) {
+        if self.found.len() > MAX_MISTAKES {
+            return;
+        }
         self.found.push(Mismatch { node, pointer: self.pointer.clone(), kind });
     }
 }

@@ -14,6 +14,7 @@ mod worded;
 
 use serde_json::Value as Json;
 
+use crate::ast::{MAX_MISTAKES, MAX_STEPS};
 use crate::diagnostic::{Diagnostic, Edit, Fix};
 use crate::errors::ReadShape;
 use crate::located::{Leaf, Located, LocatedValue, SchemaView, form_key};
@@ -24,22 +25,34 @@ use crate::json::EditedText;
 use worded::{WordedStep, text_steps};
 
 /// Reads the shapes of a document without syntax errors. Returns the document in the form of the language,
-/// and a note for each sort of shape; `None` if it has no such shape. O(document × forms).
+/// and a note for each sort of shape; `None` if it has no such shape, or more of them than are read.
+/// O(document × forms).
 pub(crate) fn plain_form(
     tree: &Located<'_>,
     text: &str,
     schema: &Json,
 ) -> Option<(EditedText, Vec<Diagnostic>)> {
+    let is_long =
+        |node: &Located<'_>| matches!(&node.value, LocatedValue::Array(items) if items.len() > MAX_STEPS);
+    if is_long(tree) || tree.members().iter().any(|(_, value)| is_long(value)) {
+        return None;
+    }
     let view = SchemaView::new(schema);
     let (mut steps, terms) = (view.forms("Step"), view.forms("Form"));
     steps.retain(|key| *key != DEADLINE);
-    let mut reader = ShapeReader { view, steps, terms, text, readings: Vec::new() };
+    let mut reader = ShapeReader { view, steps, terms, text, readings: Vec::new(), edits: 0 };
     reader.document(tree);
+    if reader.is_full() {
+        return None;
+    }
     let mut edits: Vec<Edit> =
         reader.readings.iter().flat_map(|reading| reading.edits.iter().cloned()).collect();
     let edited = EditedText::new(text, &mut edits)?;
     Some((edited, reader.readings.into_iter().map(Reading::note).collect()))
 }
+
+/// The most edits of a document: a step in another shape takes up to five.
+const MAX_EDITS: usize = 5 * MAX_STEPS;
 
 /// All places of a document that are read in one way.
 struct Reading {
@@ -68,11 +81,22 @@ struct ShapeReader<'t> {
     terms: Vec<&'t str>,
     text: &'t str,
     readings: Vec<Reading>,
+    /// Number of their edits.
+    edits: usize,
 }
 
 impl<'t> ShapeReader<'t> {
+    /// Returns whether there is more to read in another way than a document can be about.
+    fn is_full(&self) -> bool {
+        self.readings.len() > MAX_MISTAKES || self.edits > MAX_EDITS
+    }
+
     /// Notes that a place is written in one way and read in another.
     fn read_as(&mut self, span: Span, written: String, read: impl Into<String>, edits: Vec<Edit>) {
+        if self.is_full() {
+            return;
+        }
+        self.edits += edits.len();
         let read = read.into();
         match self.readings.iter_mut().find(|known| known.written == written && known.read == read) {
             Some(known) => {
