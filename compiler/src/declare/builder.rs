@@ -27,6 +27,8 @@ pub const MAX_FLUENT_PARAMS: usize = 4;
 pub const MAX_DECLARATIONS: usize = 10_000;
 /// Maximal number of facts at the start.
 pub(crate) const MAX_INITIALLY: usize = 50_000;
+/// Maximal number of them that are about `any`: each crosses others.
+pub(crate) const MAX_PATTERNS: usize = 1000;
 
 /// Layers of declarations with the files they come from; larger libraries are built on top of them.
 #[derive(Clone, Debug)]
@@ -168,7 +170,8 @@ fn kinds(library: &mut Library, declarations: &Declarations, diagnostics: &mut V
             let remedy = "choose a parent that does not descend from it".to_owned();
             diagnostics.push(BadDeclaration { span: parent.span, what, remedy }.into());
         } else {
-            let near = near(&parent.text, declarations.kinds.keys().map(SmolStr::as_str));
+            let known = declarations.kinds.keys().map(SmolStr::as_str).take(MAX_DECLARATIONS);
+            let near = near(&parent.text, known);
             diagnostics.push(UnknownType { span: parent.span, name: parent.text.clone(), near }.into());
         }
         library.names.kinds.insert(decl.name.text.clone(), Kind(index(&library.kinds)));

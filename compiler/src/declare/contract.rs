@@ -9,7 +9,7 @@ use motet_syntax::words::is_json_key;
 use motet_syntax::{Diagnostic, Span};
 use smol_str::SmolStr;
 
-use super::builder::{Declarations, MAX_INITIALLY, elaborator, limit};
+use super::builder::{Declarations, MAX_INITIALLY, MAX_PATTERNS, elaborator, limit};
 use super::card;
 use super::elaborator::{Elaborator, Expected, ValueRole};
 use super::errors::{
@@ -79,7 +79,7 @@ pub(super) fn initially(
     diagnostics: &mut Vec<Diagnostic>,
 ) {
     let mut elaborator = elaborator(library, entities);
-    let mut facts = Vec::new();
+    let (mut facts, mut patterns) = (Vec::new(), 0);
     if let Some(robot) = robot {
         for (text, expr, span) in card::facts(robot, diagnostics) {
             let (value, inner) = strip_not(&expr);
@@ -102,6 +102,12 @@ pub(super) fn initially(
         }
         let (value, inner) = strip_not(expr);
         if let Some(fact) = literal(&mut elaborator, inner) {
+            patterns += usize::from(fact.args.contains(&None));
+            if patterns > MAX_PATTERNS {
+                let (what, limit) = ("facts about `any` at the start", MAX_PATTERNS);
+                elaborator.report(LimitExceeded { span: expr.span, what, limit });
+                break;
+            }
             facts.push((fact, value, expr.span));
         }
     }

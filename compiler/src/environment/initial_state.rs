@@ -9,7 +9,7 @@ use motet_syntax::{Diagnostic, Span, Syntax};
 use super::Environment;
 use super::errors::{Contradiction, NotAFact};
 use crate::declare::elaborator::Elaborator;
-use crate::declare::{Library, MAX_INITIALLY};
+use crate::declare::{Library, MAX_INITIALLY, MAX_PATTERNS};
 use crate::ir::{Base, Entity, Fact, Fluent, Term};
 
 /// Facts at the start with their truth values, in order, in text syntax: `{"holding(mug_1)": true}`.
@@ -24,7 +24,7 @@ impl InitialState {
     pub(super) fn apply(&self, library: &Library, environment: &mut Environment) -> Vec<Diagnostic> {
         let mut diagnostics = Vec::new();
         let entities = environment.entities().clone();
-        let mut said = Vec::new();
+        let (mut said, mut patterns) = (Vec::new(), 0);
         let says_free = self.facts.keys().any(|text| text.trim_start().starts_with(lang::fluents::FREE));
         for (index, (text, (value, span))) in self.facts.iter().enumerate() {
             if diagnostics.len() > MAX_MISTAKES {
@@ -52,6 +52,13 @@ impl InitialState {
             let why = elaborator.diagnostics.into_iter().next();
             match (fact, why) {
                 (Some(fact), None) => {
+                    patterns += usize::from(fact.args.contains(&None));
+                    if patterns > MAX_PATTERNS {
+                        let why = format!("a state has at most {MAX_PATTERNS} facts about `any`");
+                        let text = text.clone();
+                        diagnostics.push(NotAFact { span: *span, text, why, remedy: None }.into());
+                        break;
+                    }
                     let is_holding = library.lang_items.holding == Some(fact.fluent);
                     if let (true, true, false, [Some(Term::Entity(held))]) =
                         (is_holding, *value == Some(true), says_free, fact.args.as_slice())
