@@ -6,7 +6,7 @@ use std::path::Path;
 
 use clap::ValueEnum;
 use motet_project::ProjectError;
-use motet_syntax::render::escaped;
+use motet_syntax::render::{escaped, escaped_json};
 
 use crate::error::CliError;
 
@@ -51,8 +51,15 @@ pub(crate) struct Output {
 }
 
 impl Output {
-    /// Writes a text and flushes it.
+    /// Writes a text and flushes it. What would steer a terminal is escaped, in a document of JSON as JSON has
+    /// it: texts of others may be in it.
     pub(crate) fn text(&mut self, text: &str) {
+        let is_json = text.trim_start().starts_with(['{', '[']);
+        self.styled(&if is_json { escaped_json(text) } else { escaped(text) });
+    }
+
+    /// Writes a text with its own colours, in which the texts of others are escaped, and flushes it.
+    pub(crate) fn styled(&mut self, text: &str) {
         if self.is_closed || text.is_empty() {
             return;
         }

@@ -113,7 +113,7 @@ impl Report {
                 let needs_gap =
                     self.format == DiagnosticFormat::Human && self.out.is_used() && !text.is_empty();
                 let gap = if needs_gap { "\n" } else { "" };
-                self.out.text(&format!("{gap}{text}"));
+                self.out.styled(&format!("{gap}{text}"));
             }
         }
     }
@@ -148,7 +148,7 @@ impl Report {
                     note(text.trim_end());
                 }
             } else {
-                self.out.text(&text);
+                self.out.styled(&text);
             }
         }
         close(&mut self.out, result)

@@ -118,7 +118,7 @@ fn summary(
             (StepStatus::Failed, "stopped by a fault of the engine".to_owned(), Some(fault.to_string()))
         }
     };
-    let mut text = paint(&format!("{} {}: {what}", mark(status), graph.policy), status, is_colored);
+    let mut text = paint(&format!("{} {}: {what}", mark(status), escape(&graph.policy)), status, is_colored);
     if let Some(why) = why {
         text.push_str(&format!("\n  why: {}", escape(&why)));
     }

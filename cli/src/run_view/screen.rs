@@ -10,7 +10,7 @@ use motet_runtime::{
 };
 
 use super::{Clock, View, duration, mark, paint, summary};
-use crate::output::Output;
+use crate::output::{Output, escape};
 use crate::typed_line;
 use motet::page::tree::{StepRow, StepStatus, StepTree};
 
@@ -56,7 +56,8 @@ impl Screen {
             lines += 1;
         };
         let paused = if self.is_held || !self.held.is_empty() { "  paused" } else { "" };
-        push(&format!("{} on {}  {}{paused}", self.graph.policy, robot(&self.graph), duration(now)));
+        let (policy, robot) = (escape(&self.graph.policy), escape(robot(&self.graph)));
+        push(&format!("{policy} on {robot}  {}{paused}", duration(now)));
         let (before, after) = (shown.start, self.tree.rows.len().saturating_sub(shown.end));
         if before > 0 {
             push(&paint(&format!("  … {before} above"), StepStatus::Pending, self.is_colored));
@@ -72,7 +73,7 @@ impl Screen {
             push(&format!("> {typed}"));
         }
         self.drawn = lines;
-        self.out.text(&text);
+        self.out.styled(&text);
         self.last = Some(Instant::now());
     }
 
@@ -171,7 +172,7 @@ impl View for Screen {
         self.draw(now);
         typed_line::set_drawn(false);
         let text = summary(&self.graph, &self.tree, (now, self.clock), end, self.is_colored);
-        self.out.line(&format!("\n{text}"));
+        self.out.styled(&format!("\n{text}\n"));
     }
 }
 
@@ -208,7 +209,7 @@ impl Lines {
         };
         if let (true, Some(row)) = (is_shown, self.tree.row(node)) {
             let line = self.line(row, record.at);
-            self.out.line(&line);
+            self.out.styled(&format!("{line}\n"));
         }
     }
 
@@ -264,6 +265,6 @@ impl View for Lines {
 
     fn finish(&mut self, now: Time, end: &RunEnd) {
         let text = summary(&self.graph, &self.tree, (now, self.clock), end, self.is_colored);
-        self.out.line(&format!("\n{text}"));
+        self.out.styled(&format!("\n{text}\n"));
     }
 }

@@ -20,6 +20,7 @@ mod dialog;
 mod driver;
 mod fmt;
 mod grammar;
+mod hostile;
 mod import;
 mod journal;
 mod many;

@@ -3,6 +3,8 @@
 
 use std::borrow::Cow;
 
+use crate::render::is_steering;
+
 /// Words that are never a bare name in the text syntax: the rule `reserved` of the grammar.
 pub const RESERVED: [&str; 26] = [
     "let", "sequence", "if", "else", "wait", "until", "monitor", "when", "then", "during", "try", "catch",
@@ -112,11 +114,11 @@ pub fn is_bare_name(text: &str) -> bool {
 }
 
 /// Checks if a text can stand as a name, in back-quotes where it is not a bare one: it is not empty, does not
-/// begin with `$` and has no back-quote and no control character but the tab.
+/// begin with `$`, and has no back-quote and nothing that steers a terminal but the tab.
 #[must_use]
 pub fn is_name(text: &str) -> bool {
-    let is_barred = |byte: &u8| matches!(byte, b'`' | 0..=8 | 10..=0x1f | 0x7f);
-    text.as_bytes().first().is_some_and(|first| *first != b'$') && !text.as_bytes().iter().any(is_barred)
+    let is_barred = |letter: char| letter == '`' || (letter != '\t' && is_steering(letter));
+    text.chars().next().is_some_and(|first| first != '$') && !text.contains(is_barred)
 }
 
 /// The name as the text syntax writes it: in back-quotes where it needs them.

@@ -66,7 +66,7 @@ impl StepTree {
         let mut open = vec![Open::Region(ROOT, 0)];
         while let Some(next) = open.pop() {
             match next {
-                Open::Heading(text, depth) => tree.push(None, depth, text),
+                Open::Heading(text, depth) => tree.push(None, depth, &text),
                 Open::Region(region, depth) => {
                     let entry = graph.regions.get(region.index()).and_then(|region| region.entry);
                     open.extend(entry.map(|entry| Open::Node(entry, depth)));
@@ -76,7 +76,7 @@ impl StepTree {
                     if tree.row_of.get(id.index()).is_none_or(|place| place.is_some()) {
                         continue;
                     }
-                    tree.push(Some(id), depth, escape(&label(&graph, &node.kind)));
+                    tree.push(Some(id), depth, &label(&graph, &node.kind));
                     open.extend(node.next.map(|next| Open::Node(next, depth)));
                     let mut parts = Vec::new();
                     branches(&graph, &node.kind, depth, &mut parts);
@@ -87,11 +87,11 @@ impl StepTree {
         tree
     }
 
-    fn push(&mut self, node: Option<NodeId>, depth: usize, label: String) {
+    fn push(&mut self, node: Option<NodeId>, depth: usize, label: &str) {
         if let Some(place) = node.and_then(|node| self.row_of.get_mut(node.index())) {
             *place = Some(self.rows.len());
         }
-        let (status, note) = (StepStatus::Pending, String::new());
+        let (status, note, label) = (StepStatus::Pending, String::new(), escape(label));
         self.rows.push(StepRow { node, depth, label, status, note, since: Time::ZERO, took: None });
     }
 

@@ -5,11 +5,12 @@ use indexmap::IndexMap;
 use motet_stdlib::lang::kinds;
 use motet_syntax::ast::MAX_MISTAKES;
 use motet_syntax::json::Spanned;
+use motet_syntax::render::is_steering;
 use motet_syntax::{Diagnostic, Span};
 use smol_str::SmolStr;
 
 use super::errors::{
-    BadClearance, BadZone, EmptyName, FieldTwice, NotPositive, TooFar, TooWideAngle, ZeroAxis,
+    BadClearance, BadId, BadZone, EmptyName, FieldTwice, NotPositive, TooFar, TooWideAngle, ZeroAxis,
 };
 use super::model::{CameraView, Entity, EntityShape, EntitySpans, Placement, Scene, Travel};
 use super::quantity::{FURTHEST, SceneQuantity};
@@ -26,6 +27,14 @@ const OWN_KEYS: &[&str] = &["mass", "width"];
 pub(super) fn entity(wire: &Spanned<wire::Entity>, numbers: &mut NumberReader) -> Entity {
     if wire.kind.is_empty() {
         numbers.found.push(EmptyName { span: wire.kind.span, key: "kind" }.into());
+    }
+    let alone = std::slice::from_ref;
+    let (kind, class) = (alone(&wire.kind.value), alone(&wire.class));
+    let named = [("kind", kind), ("class", class), ("names", &wire.names), ("categories", &wire.categories)];
+    for (key, names) in named {
+        for id in names.iter().filter(|name| name.contains(is_steering)) {
+            numbers.found.push(BadId { span: wire.id.span, key, id: id.clone() }.into());
+        }
     }
     let name = |name: &Option<Spanned<SmolStr>>| name.as_ref().map(|name| name.value.clone());
     let entity = Entity {

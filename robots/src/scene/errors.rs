@@ -27,15 +27,21 @@ motet_syntax::mistakes! {
     help(_m) { Some("give each entity an id of its own".into()) }
     related(m) { vec![Related::new("it is first used here", m.first)] }
 
-    /// An id that no policy could name.
-    BadId("M0434", Error) { id: SmolStr }
+    /// An id that no policy could name, or another name that does not stand on one line.
+    BadId("M0434", Error) { key: &'static str, id: SmolStr }
     message(m) {
-        match m.id.is_empty() {
-            true => "an id is empty".into(),
-            false => format!("`{}` cannot be named in a policy", m.id.escape_debug()),
+        match (m.key, m.id.is_empty()) {
+            ("id", true) => "an id is empty".into(),
+            ("id", false) => format!("`{}` cannot be named in a policy", m.id.escape_debug()),
+            (key, _) => format!("`{key}` has a control character: `{}`", m.id.escape_debug()),
         }
     }
-    help(_m) { Some("an id has at least one character, no back-quote and no control character".into()) }
+    help(m) {
+        Some(match m.key {
+            "id" => "an id has at least one character, no back-quote, no `,` or `;`, and no control character".into(),
+            _ => "a name stands on one line and shows all of its characters".into(),
+        })
+    }
 
     /// An id that has a meaning of its own in the language.
     ReservedId("M0435", Error) { id: SmolStr }

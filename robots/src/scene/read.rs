@@ -5,6 +5,7 @@ use std::collections::{HashMap, HashSet};
 
 use indexmap::IndexMap;
 use motet_syntax::json::{self, Spanned};
+use motet_syntax::render::is_steering;
 use motet_syntax::{Diagnostic, FileId, Source, Span, suggest};
 use smol_str::SmolStr;
 
@@ -62,8 +63,8 @@ fn entities(wires: &[Spanned<wire::Entity>], numbers: &mut NumberReader) -> Inde
     let mut places: IndexMap<SmolStr, Span> = IndexMap::with_capacity(wires.len());
     for wire in wires {
         let (id, span) = (wire.id.value.clone(), wire.id.span);
-        if id.is_empty() || id.chars().any(|letter| letter == '`' || letter.is_control()) {
-            numbers.found.push(BadId { span, id }.into());
+        if id.is_empty() || id.contains(|letter| matches!(letter, '`' | ',' | ';') || is_steering(letter)) {
+            numbers.found.push(BadId { span, key: "id", id }.into());
         } else if RESERVED.contains(&id.as_str()) {
             numbers.found.push(ReservedId { span, id }.into());
         } else if let Some(first) = places.get(&id).copied() {

@@ -6,6 +6,7 @@ use std::borrow::Cow;
 use smol_str::SmolStr;
 
 use crate::ast::{ArithOp, Call, Expr, ExprKind, Name, TextPart};
+use crate::render::is_steering;
 use crate::unit::Unit;
 use crate::unit::parse_quantity;
 use crate::words::spelled;
@@ -247,9 +248,7 @@ fn literal(text: &mut String, value: &str) {
             '\n' => text.push_str("\\n"),
             '\t' => text.push_str("\\t"),
             '\r' => text.push_str("\\r"),
-            control if control.is_ascii_control() => {
-                text.push_str(&format!("\\u{{{:x}}}", u32::from(control)))
-            }
+            steering if is_steering(steering) => text.extend(steering.escape_unicode()),
             other => text.push(other),
         }
     }

@@ -19,6 +19,7 @@ use crate::ast::{
 };
 use crate::json::term::{self, Args, Awaited, Condition, Count, Duration, Field, Form, Get, Is, Term};
 use crate::json::{Lenient, Spanned, wire};
+use crate::render::escaped_json;
 use crate::unit::{Dimension, Unit};
 use crate::words::spelled;
 
@@ -496,7 +497,7 @@ fn fitting(text: &mut String, value: &Value, indent: usize, used: usize, after: 
 fn flat(text: &mut String, value: &Value, limit: usize) -> bool {
     match value {
         Value::Null | Value::Bool(_) | Value::Number(_) | Value::String(_) => {
-            text.push_str(&value.to_string())
+            text.push_str(&escaped_json(&value.to_string()))
         }
         Value::Array(members) => {
             text.push('[');
@@ -563,7 +564,7 @@ fn broken(text: &mut String, value: &Value, indent: usize, after: usize) {
 }
 
 fn push_key(text: &mut String, key: &str) {
-    text.push_str(&Value::from(key).to_string());
+    text.push_str(&escaped_json(&Value::from(key).to_string()));
     text.push_str(": ");
 }
 

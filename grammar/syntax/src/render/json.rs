@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{file_name, line_column};
+use super::{escaped_json, file_name, line_column};
 use crate::diagnostic::Diagnostic;
 use crate::source::{Sources, Span};
 
@@ -160,5 +160,5 @@ pub fn json(diagnostics: &[Diagnostic], sources: &Sources) -> String {
         text.push_str(&serde_json::to_string(&record(diagnostic, sources)).unwrap_or_default());
         text.push('\n');
     }
-    text
+    escaped_json(&text)
 }

@@ -39,6 +39,22 @@ pub fn escaped(text: &str) -> String {
     shown
 }
 
+/// Text of JSON documents in which what would steer a terminal is escaped as JSON has it (`\u001b`), but for
+/// line breaks and tabs between values: it reads as the same values.
+#[must_use]
+pub fn escaped_json(text: &str) -> String {
+    let mut shown = String::with_capacity(text.len());
+    for letter in text.chars() {
+        match letter {
+            '\n' | '\t' => shown.push(letter),
+            // All of them have four digits.
+            _ if is_steering(letter) => shown.push_str(&format!("\\u{:04x}", u32::from(letter))),
+            _ => shown.push(letter),
+        }
+    }
+    shown
+}
+
 /// Text in which each character that would steer a terminal is `?`, once for each of its bytes: places in it
 /// stay where they were. Line breaks and tabs stay.
 fn masked(text: &Arc<str>) -> Arc<str> {
@@ -95,11 +111,21 @@ fn tool_file(sources: &Sources, span: Span) -> &str {
 
 #[cfg(test)]
 mod tests {
-    use super::{escaped, masked};
+    use super::{escaped, escaped_json, masked};
 
     #[test]
     fn escaped_leaves_nothing_that_steers_a_terminal() {
         assert_eq!(escaped("a\u{1b}[2J\r\u{9b}b\n\tc\u{202e}"), "a\\u{1b}[2J\\r\\u{9b}b\n\tc\\u{202e}");
+    }
+
+    #[test]
+    fn escaped_json_reads_as_the_same_values() {
+        let value = serde_json::json!({"a": "\u{1b}[2J\u{7f}\u{9b}\u{200f}\u{2028}\u{202e}\u{2069}ä\n\t😀"});
+        for text in [value.to_string(), format!("{value:#}")] {
+            let shown = escaped_json(&text);
+            assert!(!shown.contains(|letter| super::is_steering(letter) && letter != '\n'), "{shown:?}");
+            assert_eq!(serde_json::from_str::<serde_json::Value>(&shown).unwrap(), value);
+        }
     }
 
     #[test]

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use serde_json::{Value, json};
 
-use super::{escaped, region, tool_file};
+use super::{escaped, escaped_json, region, tool_file};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::source::{Source, Sources, Span};
 
@@ -47,7 +47,7 @@ pub fn sarif<'h>(
     });
     let mut text = serde_json::to_string_pretty(&log).unwrap_or_default();
     text.push('\n');
-    text
+    escaped_json(&text)
 }
 
 fn rule(code: &str, help: Option<CodePage<'_>>) -> Value {

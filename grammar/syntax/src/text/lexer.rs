@@ -9,6 +9,7 @@
 use crate::ast::{MAX_NESTING, MAX_TOKENS};
 use crate::diagnostic::Diagnostic;
 use crate::errors::{DocumentKind, Empty, TextSyntax, TooDeep, TooManyTokens};
+use crate::render::is_steering;
 use crate::source::{FileId, Span};
 use crate::unit::number_length;
 
@@ -163,6 +164,7 @@ pub(super) fn check(text: &str, file: FileId) -> Result<(), LexicalFault> {
         }
         match (token.kind, token.text) {
             (TokenKind::Open, _) => return Err(unended(token, file).into()),
+            (TokenKind::Comment | TokenKind::Doc | TokenKind::Quoted, _) => unsteered(token, file)?,
             (TokenKind::Mark, "{")
                 if open.last().is_some_and(|last| matches!(last.text, "(" | "[") && last.start >= line) =>
             {
@@ -203,6 +205,17 @@ pub(super) fn check(text: &str, file: FileId) -> Result<(), LexicalFault> {
             Err(fault(mistake, BracketFault::Ended { opening: opening.start }))
         }
     }
+}
+
+/// Refuses a comment or a name with what steers a terminal: neither has escapes.
+fn unsteered(token: Token<'_>, file: FileId) -> Result<(), LexicalFault> {
+    let text = token.text.trim_end_matches('\r');
+    let mut letters = text.char_indices().filter(|(_, letter)| *letter != '\t' && is_steering(*letter));
+    let Some((at, letter)) = letters.next() else { return Ok(()) };
+    let (start, kind) = (token.start + at, if token.kind == TokenKind::Quoted { "name" } else { "comment" });
+    let span = Span::new(file, start, start + letter.len_utf8());
+    let message = format!("the {kind} has the control character `{}`", letter.escape_default());
+    Err(Diagnostic::from(TextSyntax::new(span, message, "remove it")).into())
 }
 
 pub(super) fn closing(opening: &str) -> &'static str {

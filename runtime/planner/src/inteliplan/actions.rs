@@ -441,9 +441,7 @@ impl Writer<'_> {
         if let (true, Some(ExprKind::List(places))) =
             (looks_there, call.call.args.get(1).map(|arg| &arg.value.kind))
         {
-            let places: Vec<String> =
-                places.iter().map(|place| format!("go {}", self.arg(&place.kind))).collect();
-            self.actions.extend(places);
+            places.iter().for_each(|place| self.push(format!("go {}", self.arg(&place.kind))));
             return;
         }
         let joined = match (name, args.as_slice()) {
@@ -455,7 +453,18 @@ impl Writer<'_> {
             (primitives::HANDOVER, [what, to]) => format!("{what} to {to}"),
             _ => args.join(" "),
         };
-        self.actions.push(format!("{words} {joined}").trim().to_owned());
+        self.push(format!("{words} {joined}"));
+    }
+
+    /// Adds an action. A list has no quotes: what would read as several actions, or as a part of the next one,
+    /// is left out.
+    fn push(&mut self, action: String) {
+        let words = action.split_whitespace().collect::<Vec<_>>().join(" ");
+        let read = items(&format!("{words}, {END}"), self.scene);
+        match read.as_slice() {
+            [_, end] if end == END => self.actions.push(words),
+            _ => self.left_out.push(format!("`{words}`, whose marks separate actions")),
+        }
     }
 
     fn arg(&self, value: &ExprKind) -> String {
@@ -471,6 +480,9 @@ impl Writer<'_> {
         self.scene.entities.get(id).is_some_and(|entity| entity.kind == kinds::CONTAINER)
     }
 }
+
+/// Action behind another one, to see where that ends.
+const END: &str = "home";
 
 /// Mark before the number of an entity that stands for its name, where the name has marks in it.
 const NUMBERED: char = '\u{1}';

@@ -140,6 +140,18 @@ fn next_tag(text: &str) -> Option<(&str, usize, bool, &str)> {
     }
 }
 
+/// Text without the beginnings of tags: a name in it can begin no part.
+fn untagged(text: &str) -> String {
+    let (mut whole, mut rest) = (String::new(), text);
+    while let Some((before, _, _, after)) = next_tag(rest) {
+        let tag = rest.strip_prefix(before).and_then(|tag| tag.strip_suffix(after)).unwrap_or_default();
+        whole.push_str(before);
+        whole.push_str(tag.trim_start_matches('<'));
+        rest = after;
+    }
+    whole + rest
+}
+
 /// Texts of `<vision>` and `<feasibility>` for the objects that a request names.
 #[must_use]
 pub fn sight(seen: &[Sighting]) -> (String, String) {
@@ -173,13 +185,13 @@ impl Exchange {
     }
 
     /// The exchange as text, one part per line. Empty history, vision and feasibility are left out. Reading
-    /// the text gives the same exchange if no part contains a tag.
+    /// the text gives the same exchange, but for white space; a tag in a part loses its `<`.
     #[must_use]
     pub fn write(&self) -> String {
         let parts = [&self.history, &self.user, &self.vision, &self.feasibility, &self.robot];
         let mut text = String::new();
         for (tag, part) in TAGS.iter().zip(parts) {
-            let part = part.split_whitespace().collect::<Vec<_>>().join(" ");
+            let part = untagged(&part.split_whitespace().collect::<Vec<_>>().join(" "));
             if !part.is_empty() || matches!(*tag, "user" | "robot") {
                 let _ = writeln!(text, "<{tag}> {part}");
             }

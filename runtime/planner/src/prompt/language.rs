@@ -15,6 +15,7 @@ use motet_syntax::ast::{Arg, Block, Clause, ExprKind, PrimitiveDecl, Quantified,
 use motet_syntax::{FileId, Severity, Source, Syntax, print};
 use smol_str::SmolStr;
 
+use super::in_line;
 use crate::builtin;
 
 /// Kinds of steps, each line an example and its meaning.
@@ -70,7 +71,7 @@ fn form(robot: &Robot) -> String {
     format!(
         "You plan for a robot, {}. Answer with one policy and nothing else, as JSON:\n\
          {{\"motet\": 1, \"policy\": NAME, \"robot\": \"{name}\", \"steps\": [STEP, …]}}\n",
-        robot.title
+        in_line(&robot.title)
     )
 }
 
@@ -199,8 +200,8 @@ fn primitives(session: &Session, detail: Detail) -> String {
     }
     for (callable, decl, needs) in known {
         text.push_str(&signature(callable, &signatures));
-        let doc = decl.doc.split_inclusive(". ").next().unwrap_or_default().replace('\n', " ");
-        let _ = write!(text, " {}", doc.trim());
+        let doc = decl.doc.split_inclusive(". ").next().unwrap_or_default();
+        let _ = write!(text, " {}", in_line(doc).trim());
         if detail == Detail::Contracts {
             text.push_str(&contract(decl, needs, &usual));
         }
@@ -317,6 +318,7 @@ fn planned_example(session: &Session, robot: &Robot, scene: &Scene) -> Option<St
     make_explicit(&mut in_text, session.library(), Syntax::Text);
     make_explicit(&mut policy, session.library(), Syntax::Json);
     take_conditions(&mut policy.body, in_text.body);
+    let request = in_line(&request);
     Some(format!("# Example: {request}\n{}\n", one_line(&print::policy_json(&policy))))
 }
 
@@ -338,12 +340,17 @@ fn take_conditions(steps: &mut Block, from: Block) {
 /// scene back in order.
 fn searching_example(session: &Session, robot: &Robot, scene: &Scene) -> Option<String> {
     let what = UNLISTED.into_iter().find(|what| !session.describes(what))?;
-    let mut surfaces = scene.entities.values().filter(|entity| entity.kind == kinds::SURFACE);
+    // A name with a quote would go on as the policy of the example.
+    let is_plain = |entity: &&Entity| ![&motet_requests::called(entity), entity.id.as_str()]
+        .iter()
+        .any(|name| name.contains(['"', '\\']));
+    let mut surfaces =
+        scene.entities.values().filter(|entity| entity.kind == kinds::SURFACE).filter(is_plain);
     let (first, second) = (surfaces.next()?, surfaces.next()?);
     let is_shut = |entity: &&Entity| {
         entity.kind == kinds::CONTAINER && entity.open == Some(false) && entity.locked != Some(true)
     };
-    let container = scene.entities.values().find(is_shut);
+    let container = scene.entities.values().filter(is_plain).find(is_shut);
     let [a, b] = [first, second].map(motet_requests::called);
     let inside = container.map(motet_requests::called).unwrap_or_default();
     let container = container.map(|container| container.id.as_str()).unwrap_or_default();
@@ -361,7 +368,7 @@ fn searching_example(session: &Session, robot: &Robot, scene: &Scene) -> Option<
     };
     let examples = EXAMPLES.into_iter().map(|(request, policy)| (filled(request), filled(policy)));
     let (request, policy) = examples.into_iter().find(|(_, policy)| passes(session, policy, &["M"]))?;
-    Some(format!("# Example: {request}\n{policy}\n"))
+    Some(format!("# Example: {}\n{policy}\n", in_line(&request)))
 }
 
 /// JSON without line breaks and indents.

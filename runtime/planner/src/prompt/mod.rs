@@ -12,7 +12,8 @@ use motet_graph::Value;
 use motet_requests::RequestContext;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
-use motet_runtime::memory::Memory;
+use motet_runtime::memory::{Memory, ShortHistory};
+use motet_syntax::render::is_steering;
 use smol_str::SmolStr;
 
 pub use language::StaticPrompt;
@@ -117,13 +118,24 @@ impl Prompt<'_> {
     fn done(&self) -> String {
         let entries = self.memory.entries();
         let skipped = entries.len().saturating_sub(LATEST).max(1);
-        let lines: String = entries.skip(skipped).map(|entry| format!("- {entry}\n")).collect();
-        let due: String = self.memory.due().map(|due| format!("- still to clean up: {due}\n")).collect();
-        if lines.is_empty() && due.is_empty() && self.memory.latest_failure().is_none() {
+        let lines: String = entries.skip(skipped).map(|entry| format!("- {}\n", in_line(&entry.to_string()))).collect();
+        let due = self.memory.due();
+        let due: String =
+            due.map(|due| format!("- still to clean up: {}\n", in_line(&due.to_string()))).collect();
+        let ShortHistory { request, failure } = self.memory.short();
+        if lines.is_empty() && due.is_empty() && failure.is_none() {
             return String::new();
         }
-        format!("# What was asked and done\n{}{lines}{due}", self.memory.short())
+        let line = |text: &dyn ToString, of: &str| format!("{of}: {}\n", in_line(&text.to_string()));
+        let request = request.map_or_else(String::new, |request| line(&request, "request"));
+        let failure = failure.map_or_else(String::new, |failure| line(&failure, "latest failure"));
+        format!("# What was asked and done\n{request}{failure}{lines}{due}")
     }
+}
+
+/// Text of others as part of a line: what would begin another one or steer a terminal is a blank.
+fn in_line(text: &str) -> String {
+    text.chars().map(|letter| if is_steering(letter) { ' ' } else { letter }).collect()
 }
 
 fn join(parts: &[&str]) -> String {

@@ -12,13 +12,15 @@ use motet_runtime::memory::Memory;
 use motet_stdlib::lang::{entities, fluents, kinds};
 use smol_str::SmolStr;
 
+use super::in_line;
+
 /// Chosen entities of the scene, one per line.
 pub(super) fn entities(situation: &RequestContext<'_>, picked: &dyn Fn(&SmolStr) -> bool) -> String {
-    let mut text = String::new();
+    let mut lines = String::new();
     for entity in situation.scene.entities.values().filter(|entity| picked(&entity.id)) {
         let names: Vec<&str> = entity.names.iter().map(SmolStr::as_str).collect();
         let called = if names.is_empty() { entity.class.to_string() } else { names.join(", ") };
-        text.push_str(&format!("- {} ({}): {called}", entity.id, entity.kind));
+        let mut text = format!("- {} ({}): {called}", entity.id, entity.kind);
         if let Some(extent) = extent(entity) {
             text.push_str(&format!("; {extent}"));
         }
@@ -64,9 +66,10 @@ pub(super) fn entities(situation: &RequestContext<'_>, picked: &dyn Fn(&SmolStr)
                 Some(false) | None => {}
             }
         }
-        text.push('\n');
+        lines.push_str(&in_line(&text));
+        lines.push('\n');
     }
-    text
+    lines
 }
 
 /// Extent of a zone on the floor.
@@ -111,17 +114,14 @@ pub(super) fn now(
         (None, None) => "may hold something".to_owned(),
     };
     let posture = posture.map_or_else(String::new, |posture| format!(", its arm {posture}"));
-    let mut text = format!("# Now\nThe robot {stands} and {holds}{posture}.");
+    let mut text = format!("The robot {stands} and {holds}{posture}.");
     if !known.is_empty() {
         let known =
             known.iter().map(|(atom, holds)| if *holds { atom.clone() } else { format!("not {atom}") });
         text.push_str(&format!(" Known: {}.", known.collect::<Vec<_>>().join(", ")));
     }
-    text.push('\n');
-    for step in memory.running() {
-        text.push_str(&format!("It is running {}.\n", step.call));
-    }
-    text
+    let running = memory.running().map(|step| format!("It is running {}.\n", in_line(&step.call)));
+    format!("# Now\n{}\n{}", in_line(&text), running.collect::<String>())
 }
 
 /// Results of the steps of the latest policy, which a new policy cannot name but the request may mean.
@@ -135,7 +135,7 @@ pub(super) fn bound(bound: &[(SmolStr, Value)]) -> String {
     if known.is_empty() {
         String::new()
     } else {
-        format!("Results of the last policy: {}.\n", known.join(", "))
+        format!("Results of the last policy: {}.\n", in_line(&known.join(", ")))
     }
 }
 
@@ -277,7 +277,7 @@ pub(crate) fn told(seen: &[Sighting]) -> String {
             Reachability::Hardly(why) => format!("no motion was found, which proves nothing: {why}"),
             Reachability::Unknown(why) => format!("not known whether feasible: {why}"),
         };
-        format!("- {}: {sight}{reach}\n", one.id)
+        in_line(&format!("- {}: {sight}{reach}", one.id)) + "\n"
     });
     let meaning = "Feasible: to drive there, and to pick it, or to open or close it.";
     format!("# What the request names\n{meaning}\n{}", lines.collect::<String>())
