@@ -10,7 +10,7 @@ use motet_syntax::render::{escaped, escaped_json};
 
 use crate::error::CliError;
 
-pub(crate) use motet::shown::escape;
+pub(crate) use motet::printable::escape;
 
 /// Colours of the output.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, ValueEnum)]
@@ -51,8 +51,8 @@ pub(crate) struct Output {
 }
 
 impl Output {
-    /// Writes a text and flushes it. What would steer a terminal is escaped, in a document of JSON as JSON has
-    /// it: texts of others may be in it.
+    /// Writes a text and flushes it. What would steer a terminal is escaped, in a document of JSON as JSON
+    /// has it: texts of others may be in it.
     pub(crate) fn text(&mut self, text: &str) {
         let is_json = text.trim_start().starts_with(['{', '[']);
         self.styled(&if is_json { escaped_json(text) } else { escaped(text) });

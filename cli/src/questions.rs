@@ -311,7 +311,7 @@ mod tests {
     }
 
     #[test]
-    fn the_robot_moves_on_while_a_question_is_open() {
+    fn robot_moves_on_while_a_question_is_open() {
         let (mut robot, said) = (Robot::default(), Rc::<RefCell<Said>>::default());
         let mut driver = QuestionDriver::new(&mut robot, Person(Rc::clone(&said)), Time::ZERO, false);
         driver.start(Time::ZERO, goal(1), &command("go", Vec::new()));

@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use motet::eyes::Eyes;
+use motet::driver_camera::DriverCamera;
 use motet::run::{remote_settings, state_facts};
 use motet_graph::Graph;
 use motet_host::remote::DriverAddress;
@@ -23,7 +23,7 @@ use crate::runner::connect;
 /// Driver that is ready for runs.
 pub(crate) struct ReadyDriver {
     pub(crate) driver: Box<dyn Driver>,
-    pub(crate) eyes: Eyes,
+    pub(crate) eyes: DriverCamera,
     /// Description for the journal of a run; `None` where no policy was given.
     pub(crate) saved: Option<SavedDriver>,
     pub(crate) clock: Clock,
@@ -91,7 +91,7 @@ fn kinematic(
     let simulator = Rc::new(RefCell::new(simulator));
     Ok(ReadyDriver {
         driver: Box::new(Rc::clone(&simulator)),
-        eyes: Eyes::Simulator(simulator),
+        eyes: DriverCamera::Simulator(simulator),
         saved,
         clock: Clock::Simulated,
         speed: args.speed(),
@@ -132,7 +132,7 @@ fn remote(
         policy.map(|_| SavedDriver::process(address, &driver.welcome().instance, SavedProject::of(opened)));
     let settings = remote_settings();
     let driver = Rc::new(RefCell::new(driver));
-    let eyes = Eyes::Process(Rc::clone(&driver));
+    let eyes = DriverCamera::Process(Rc::clone(&driver));
     Ok(ReadyDriver { driver: Box::new(driver), eyes, saved, clock, speed, settings })
 }
 

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use motet::run::Room;
+use motet::run::ObservedScene;
 use motet_graph::Graph;
 use motet_host::journal::{JournalWriter, RunRecorder};
 use motet_host::remote::protocol::Hello;
@@ -36,7 +36,7 @@ pub(crate) struct PacedView {
     now: Time,
     guard: Option<Guard>,
     /// The room as the robot knows it, with what it has seen.
-    room: Room,
+    room: ObservedScene,
     /// Desk of policies that are to take over, with the view of one that does.
     desk: Option<(SwapDesk, ViewOf)>,
 }
@@ -47,7 +47,15 @@ pub(crate) type ViewOf = Box<dyn Fn(&Graph) -> Box<dyn View>>;
 impl PacedView {
     /// Observer without a guard.
     pub(crate) fn new(view: Box<dyn View>, speed: Speed) -> Self {
-        Self { view, speed, begun: None, now: Time::ZERO, guard: None, room: Room::default(), desk: None }
+        Self {
+            view,
+            speed,
+            begun: None,
+            now: Time::ZERO,
+            guard: None,
+            room: ObservedScene::default(),
+            desk: None,
+        }
     }
 
     /// The same with a guard, which checks deferred motions.
@@ -62,7 +70,7 @@ impl PacedView {
 
     /// The same in a room that changes by what the driver detects.
     pub(crate) fn with_room(self, scene: Option<Scene>) -> Self {
-        Self { room: Room::new(scene), ..self }
+        Self { room: ObservedScene::new(scene), ..self }
     }
 
     /// Takes effects from before this process began.

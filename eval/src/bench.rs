@@ -9,7 +9,7 @@ use std::str::FromStr;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
-use motet::eyes::Eyes;
+use motet::driver_camera::DriverCamera;
 use motet_host::journal::{JournalWriter, RunRecorder as JournalObserver, read};
 use motet_host::remote::protocol::Hello;
 use motet_host::remote::{DriverAddress, DriverTimeouts, RemoteDriver};
@@ -215,10 +215,10 @@ impl TrialRobot {
     }
 
     /// Its pictures.
-    fn eyes(&self) -> Eyes {
+    fn eyes(&self) -> DriverCamera {
         match self {
-            Self::Kinematic(sim) => Eyes::Simulator(Rc::clone(sim)),
-            Self::Physics(driver, _) => Eyes::Process(Rc::clone(driver)),
+            Self::Kinematic(sim) => DriverCamera::Simulator(Rc::clone(sim)),
+            Self::Physics(driver, _) => DriverCamera::Process(Rc::clone(driver)),
         }
     }
 

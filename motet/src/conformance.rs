@@ -15,7 +15,7 @@ use motet_runtime::{
 use motet_stdlib::lang;
 use smol_str::SmolStr;
 
-use crate::shown::escape;
+use crate::printable::escape;
 
 /// Call that harms nothing and nobody, as the steps of a policy.
 pub const SAY: &str = "{ say(\"This is a test.\") }";

@@ -3,15 +3,15 @@
 pub mod batch;
 pub mod conformance;
 pub mod document;
+pub mod driver_camera;
 mod error;
-pub mod eyes;
 mod facade;
 pub mod feasible;
 pub mod page;
 pub mod plan;
+pub mod printable;
 pub mod replay;
 pub mod run;
-pub mod shown;
 pub mod workbench;
 
 pub use error::Error;

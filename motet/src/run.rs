@@ -4,8 +4,8 @@
 //! it, write a journal or resume one, as the `motet` command does.
 
 pub mod events;
+mod observed_scene;
 mod recorded;
-mod room;
 
 use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
@@ -27,8 +27,8 @@ use motet_syntax::ast::File;
 
 use crate::Error;
 
+pub use observed_scene::ObservedScene;
 pub use recorded::{RecordedRun, RunPlan, recorded};
-pub use room::Room;
 
 /// Entities that the engine knows at the start besides those in the graph: all of the scene.
 #[must_use]

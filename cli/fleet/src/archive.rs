@@ -331,7 +331,7 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn a_journal_comes_back_and_only_what_is_new_is_sent() {
+    async fn journal_comes_back_and_only_what_is_new_is_sent() {
         let (own, there, back) = (folder("own"), folder("there"), folder("back"));
         let large = bytes(PART + CHUNK + 17);
         std::fs::write(own.join("000000000000.journal"), &large).unwrap();
@@ -361,7 +361,7 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn a_push_that_was_cut_off_goes_on_with_the_part_that_is_missing() {
+    async fn push_that_was_cut_off_goes_on_with_the_part_that_is_missing() {
         let (own, there, back) = (folder("cut-own"), folder("cut-there"), folder("cut-back"));
         let (path, part) = (own.join("000000000000.journal"), 1000);
         let url = Url::from_file_path(&there).unwrap();
@@ -395,7 +395,7 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn a_list_that_leads_elsewhere_is_refused() {
+    async fn list_that_leads_elsewhere_is_refused() {
         let (there, back) = (folder("evil"), folder("victim"));
         for name in ["../outside", "a@../outside", "..", "@000000-00"] {
             std::fs::write(there.join(LIST), format!("00  {name}\n")).unwrap();

@@ -81,7 +81,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_result_is_shown_in_short_whatever_a_robot_wrote() {
+    fn result_is_shown_in_short_whatever_a_robot_wrote() {
         let finding = json!({"code": "M0201", "message": "x".repeat(2 * LETTERS)});
         let result = json!({"state": "refused", "why": "no", "findings": vec![finding; FINDINGS + 2],
             "robot": "other"});

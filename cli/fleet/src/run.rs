@@ -309,7 +309,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_run_that_has_begun_is_not_refused() {
+    fn run_that_has_begun_is_not_refused() {
         let root = std::env::temp_dir().join(format!("motet-fleet-run-{}", std::process::id()));
         let folder = OrderFolder(root.clone());
         std::fs::create_dir_all(folder.journal()).unwrap();
@@ -338,7 +338,7 @@ mod tests {
     }
 
     #[test]
-    fn a_process_of_a_run_keeps_others_away() {
+    fn process_of_a_run_keeps_others_away() {
         let root = std::env::temp_dir().join(format!("motet-fleet-lock-{}", std::process::id()));
         std::fs::create_dir_all(&root).unwrap();
         let folder = OrderFolder(root.clone());

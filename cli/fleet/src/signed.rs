@@ -297,7 +297,7 @@ mod tests {
     }
 
     #[test]
-    fn a_digest_tells_orders_apart_and_not_their_times() {
+    fn digest_tells_orders_apart_and_not_their_times() {
         let what = |state: &str| What::Run {
             policy: "policy a for hsr { done }".to_owned(),
             state: serde_json::from_str(state).unwrap(),
@@ -327,7 +327,7 @@ mod tests {
     }
 
     #[test]
-    fn a_key_is_written_for_its_owner_alone() {
+    fn key_is_written_for_its_owner_alone() {
         let folder = std::env::temp_dir().join(format!("motet-fleet-key-{}", std::process::id()));
         std::fs::create_dir_all(&folder).unwrap();
         let path = folder.join("anna.key");

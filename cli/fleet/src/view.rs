@@ -250,7 +250,7 @@ mod tests {
     }
 
     #[test]
-    fn a_request_needs_the_token_and_the_name_of_this_machine() {
+    fn request_needs_the_token_and_the_name_of_this_machine() {
         for host in ["127.0.0.1:8080", "localhost:1", "[::1]:8080", "127.0.0.1", "[::1]"] {
             assert!(is_admitted(&sent(host, Some("t0")), "t0"), "{host}");
             for token in [None, Some(""), Some("t"), Some("t00")] {
@@ -264,7 +264,7 @@ mod tests {
     }
 
     #[test]
-    fn the_page_is_for_this_machine_alone() {
+    fn page_is_for_this_machine_alone() {
         assert!(address("127.0.0.1:0").is_ok() && address("[::1]:80").is_ok());
         assert!(address("0.0.0.0:80").is_err() && address("example.org:80").is_err());
     }

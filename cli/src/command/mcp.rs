@@ -3,6 +3,7 @@
 mod answer;
 mod check;
 mod checker;
+mod environment;
 mod http;
 mod motion;
 mod narration;
@@ -12,7 +13,6 @@ mod robot;
 mod run_table;
 mod server;
 mod simulation;
-mod situation;
 mod task;
 mod text;
 mod tool;
@@ -28,11 +28,11 @@ use clap::Args;
 use rmcp::ServiceExt as _;
 use tokio::runtime::Runtime;
 
+use self::environment::AgentEnvironments;
 use self::http::{BearerToken, HttpAccess, HttpAddress};
 use self::robot::RobotInputs;
 use self::run_table::RunTable;
 use self::server::{DrivenRobot, MotetServer};
-use self::situation::Situations;
 use crate::error::{CliError, Exit};
 use crate::flags::{DriverArgs, DriverChoice, SessionArgs, Speed, seed};
 use crate::interrupt::{SLICE, catch_interrupts, is_interrupted};
@@ -110,7 +110,7 @@ pub(crate) fn run(args: &McpArgs) -> Result<Exit, CliError> {
     let access = args.access()?;
     let project = args.session.project_here()?;
     let scene = project.scene_name().map(str::to_owned);
-    let situations = Arc::new(Situations::open(project, scene)?);
+    let situations = Arc::new(AgentEnvironments::open(project, scene)?);
     catch_interrupts()?;
     let runs = Arc::new(RunTable::default());
     let (orders, ordered) = mpsc::channel();

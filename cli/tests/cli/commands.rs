@@ -84,7 +84,7 @@ fn answers() {
 }
 
 #[test]
-fn a_room_without_things_has_nothing_to_suggest() {
+fn room_without_things_has_nothing_to_suggest() {
     let place = Place::new("bare").file("bare.json", r#"{"motet_scene": 1, "entities": []}"#);
     let ran = place.run("feasible --robot hsr --scene bare.json --for reach(cup)");
     ran.check(2, &["err:there is no entity `cup`", "err:the robot or scene has no entity"]);
@@ -97,7 +97,7 @@ fn attribute<'t>(line: &'t str, name: &str) -> &'t str {
 }
 
 #[test]
-fn a_drawing_tells_its_answers_apart() {
+fn drawing_tells_its_answers_apart() {
     let place = Place::new("drawing");
     let ran = place.run("feasible --robot hsr --scene kitchen --all --svg room.svg");
     assert_eq!(ran.code, Some(0), "{}", ran.stderr);
@@ -270,7 +270,7 @@ const FOLDED: &str = "<robot name='folded'>
   <limit lower='-0.5' upper='0.5' velocity='1' effort='1'/></joint></robot>";
 
 #[test]
-fn a_first_card_has_a_posture_that_touches_nothing() {
+fn first_card_has_a_posture_that_touches_nothing() {
     let place = Place::new("robots_posture").file("folded/robot.urdf", FOLDED);
     let ran = place.run("robots add folded/robot.urdf");
     ran.check(0, &["out:wrote folded/robot.toml"]);
@@ -300,7 +300,7 @@ fn a_first_card_has_a_posture_that_touches_nothing() {
 }
 
 #[test]
-fn a_first_card_stands_on_its_wheels() {
+fn first_card_stands_on_its_wheels() {
     let urdf = "<robot name='cart'><link name='base'/><link name='wheel'><collision><geometry><sphere \
         radius='0.1'/></geometry>
       </collision></link><joint name='wheel_joint' type='continuous'><origin xyz='0 0 -0.05'/><parent \
@@ -324,7 +324,7 @@ fn a_first_card_stands_on_its_wheels() {
 }
 
 #[test]
-fn a_first_card_is_made_with_the_srdf_beside_the_urdf() {
+fn first_card_is_made_with_the_srdf_beside_the_urdf() {
     let srdf = "<robot name='folded'><group name='arm'><chain base_link='base' tip_link='two'/></group>
       <group name='hand'><link name='tool0'/></group><end_effector name='hand' group='hand' \
         parent_link='tool0'/>
@@ -363,7 +363,7 @@ fn own_card(name: &str, from: &str, to: &str, declarations: Option<&str>) -> Pla
 }
 
 #[test]
-fn a_card_is_compared_with_what_is_declared() {
+fn card_is_compared_with_what_is_declared() {
     for (index, (from, to, said)) in [
         ("\"holding\",", "\"holdin\",", "M0406|rb/robot.toml:|did you mean `holding`?"),
         ("pick = {}", "pik = {}", "M0407|rb/robot.toml:|did you mean `pick`?"),
@@ -403,7 +403,7 @@ fn a_card_is_compared_with_what_is_declared() {
 }
 
 #[test]
-fn the_declarations_beside_a_card_are_read_with_it() {
+fn declarations_beside_a_card_are_read_with_it() {
     for (name, text, code) in
         [("own_broken", "action wave( {\n", "M01"), ("own_unknown", "action wave()\n    uses wing\n", "M02")]
     {

@@ -29,7 +29,7 @@ fn drive(place: &Place) -> Child {
 const JOURNAL: &str = "run/000000000000.journal";
 
 #[test]
-fn a_safe_stop_is_asked_for_again_after_a_crash() {
+fn safe_stop_is_asked_for_again_after_a_crash() {
     if !has_python() {
         return;
     }
@@ -56,7 +56,7 @@ fn a_safe_stop_is_asked_for_again_after_a_crash() {
 }
 
 #[test]
-fn a_driver_has_time_to_stop_when_the_host_goes() {
+fn driver_has_time_to_stop_when_the_host_goes() {
     if !has_python() {
         return;
     }
@@ -68,7 +68,7 @@ fn a_driver_has_time_to_stop_when_the_host_goes() {
 
 #[cfg(unix)]
 #[test]
-fn an_interrupt_at_the_terminal_leaves_the_driver_alive() {
+fn interrupt_at_the_terminal_leaves_the_driver_alive() {
     if !has_python() {
         return;
     }
@@ -155,7 +155,7 @@ fn signals_to_end_name_what_still_runs_in_a_conversation() {
 
 #[cfg(unix)]
 #[test]
-fn a_driver_behind_a_shell_ends_with_its_host() {
+fn driver_behind_a_shell_ends_with_its_host() {
     if !has_python() {
         return;
     }

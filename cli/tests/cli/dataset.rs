@@ -5,7 +5,7 @@ use crate::support::Place;
 const MAKE: &str = "dataset --robot hsr --room kitchen --scenes 3 --cases 4 --no-geometry --seed 3";
 
 #[test]
-fn a_dataset_is_made_and_passes_lint() {
+fn dataset_is_made_and_passes_lint() {
     let place = Place::new("dataset");
     for form in ["trl", "llamafactory", "qwen-vl", "inteliplan"] {
         place

@@ -33,7 +33,7 @@ fn what_must_follow_and_what_may() {
 }
 
 #[test]
-fn an_encoding_has_an_end_of_its_own() {
+fn encoding_has_an_end_of_its_own() {
     decode("decode_end", "--tokenizer cl100k --end x", "{").check(2, &["err:`--end` is only for files"]);
 }
 
@@ -56,7 +56,7 @@ fn words_are_explained() {
 }
 
 #[test]
-fn a_refusal_has_a_place_and_a_reason() {
+fn refusal_has_a_place_and_a_reason() {
     let twice = format!(
         "{HEAD}{GO},{{\"do\":\"pick\",\"object\":\"mug_1\",\"from\":\"auto\"}},{{\"do\":\"pick\",\
             \"object\":\"mug_2\",\"from\":\"auto\"}}"

@@ -33,7 +33,7 @@ fn plans_of_a_dialogue_become_policies_with_warnings() {
 }
 
 #[test]
-fn a_bare_list_becomes_a_policy_in_either_form() {
+fn bare_list_becomes_a_policy_in_either_form() {
     let place = Place::new("dialog_list").file("list.txt", "1) go to counter 2) pick coke");
     place.run(&format!("dialog list.txt {WORLD}")).check(0, &["out:policy plan for hsr {", "out:pick(coke)"]);
     let json = place.run(&format!("dialog list.txt {WORLD} --to json"));
@@ -45,7 +45,7 @@ fn a_bare_list_becomes_a_policy_in_either_form() {
 }
 
 #[test]
-fn the_plans_of_the_paper_are_completed_and_run() {
+fn plans_of_the_paper_are_completed_and_run() {
     for (name, list) in [
         ("pick", "pick coke"),
         ("go", "go to sink"),
@@ -88,7 +88,7 @@ fn what_cannot_be_done_is_said_with_its_place() {
 }
 
 #[test]
-fn the_exchange_of_a_request_is_written_and_read_again() {
+fn exchange_of_a_request_is_written_and_read_again() {
     let place = Place::new("dialog_write");
     let write = |request: &str| {
         let mut args: Vec<String> = ["dialog", "--write", request].map(str::to_owned).into();

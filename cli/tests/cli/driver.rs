@@ -134,7 +134,7 @@ fn drives_the_example() {
 }
 
 #[test]
-fn a_policy_with_a_primitive_that_the_driver_lacks_is_refused_before_anything_moves() {
+fn policy_with_a_primitive_that_the_driver_lacks_is_refused_before_anything_moves() {
     if !has_python() {
         return;
     }
@@ -173,7 +173,7 @@ fn a_policy_with_a_primitive_that_the_driver_lacks_is_refused_before_anything_mo
 }
 
 #[test]
-fn a_driver_that_misbehaves_is_named_and_stopped_safely() {
+fn driver_that_misbehaves_is_named_and_stopped_safely() {
     if !has_python() {
         return;
     }
@@ -288,7 +288,7 @@ fn killed_and_resumed_the_driver_in_another_process_does_nothing_twice() {
 }
 
 #[test]
-fn a_check_tells_the_laws_that_a_driver_breaks() {
+fn check_tells_the_laws_that_a_driver_breaks() {
     if !has_python() {
         return;
     }
@@ -326,7 +326,7 @@ fn a_check_tells_the_laws_that_a_driver_breaks() {
 }
 
 #[test]
-fn a_driver_that_owns_the_clock_runs_at_any_speed() {
+fn driver_that_owns_the_clock_runs_at_any_speed() {
     if !has_python() {
         return;
     }
@@ -344,7 +344,7 @@ fn a_driver_that_owns_the_clock_runs_at_any_speed() {
 
 /// A driver on a port outlives its host, but what it does not for long.
 #[test]
-fn a_driver_that_lost_its_host_stops_by_itself() {
+fn driver_that_lost_its_host_stops_by_itself() {
     if !has_python() {
         return;
     }

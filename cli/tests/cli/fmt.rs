@@ -122,7 +122,7 @@ fn leaves_a_reply_with_text_beside_the_policy_alone() {
 
 #[cfg(unix)]
 #[test]
-fn a_file_is_replaced_as_a_whole() {
+fn file_is_replaced_as_a_whole() {
     let place = Place::new("fmt_replaces").file("loose.motet", "policy a { say(\"x\")   done }");
     place.shell("ln -s loose.motet link.motet && chmod 640 loose.motet").check(0, &[]);
     place.run("fmt link.motet").check(0, &[]);

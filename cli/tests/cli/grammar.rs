@@ -10,7 +10,7 @@ use serde_json::Value;
 use crate::support::Place;
 
 #[test]
-fn a_grammar_is_printed_in_each_notation() {
+fn grammar_is_printed_in_each_notation() {
     let place = Place::new("grammar_formats");
     for (flags, begins) in [
         ("", "{\n  \"type\": \"object\""),
@@ -100,7 +100,7 @@ fn request(stream: &mut TcpStream) -> Value {
 }
 
 #[test]
-fn a_probe_tells_a_server_that_obeys_from_one_that_does_not() {
+fn probe_tells_a_server_that_obeys_from_one_that_does_not() {
     let place = Place::new("grammar_probe");
     let held = r#"{"choices": [{"message": {"role": "assistant", "content": "{\"probe\": \"held\"}"}}]}"#;
     let ran = place.run(&format!("grammar probe {} --dialect vllm", server("200 OK", held)));

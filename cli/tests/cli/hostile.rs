@@ -73,11 +73,13 @@ fn check(place: Place, file: &str, text: &str, lines: &[&str]) -> Place {
 fn policies_with_hostile_strings_are_shown_escaped() {
     let checked = |file: &str| {
         let of = |line: &str| line.replace("@", file);
-        let lines = ["check @ --scene kitchen FORMAT", "check --fix --diff @ --scene kitchen", "fmt --check @"];
+        let lines =
+            ["check @ --scene kitchen FORMAT", "check --fix --diff @ --scene kitchen", "fmt --check @"];
         let more = ["fmt --to text @", "fmt --to json @", "compile @ --emit graph", "compile @ --emit dot"];
         let most = ["compile @ --emit tree", "compile @ --emit mermaid", "compile @ --emit python"];
         let last = ["run @ --scene kitchen --speed max", "run @ --scene kitchen --speed max --format json"];
-        let rest = ["compile @ --emit text", "compile @ --emit json", "export btcpp @", "decode @ --robot hsr"];
+        let rest =
+            ["compile @ --emit text", "compile @ --emit json", "export btcpp @", "decode @ --robot hsr"];
         [&lines[..], &more, &most, &last, &rest].concat().into_iter().map(of).collect::<Vec<_>>()
     };
     let files = [
@@ -120,7 +122,8 @@ fn rooms_and_robots_with_hostile_strings_are_shown_escaped() {
         "do go --robot hsr --scene s.json --ask never --speed max",
     ];
     let place = check(place, "s.json", thing, &lines);
-    let card = CARD.replacen("title = \"", "title = \"§", 1).replacen("observes = [", "observes = [\"§\", ", 1);
+    let card =
+        CARD.replacen("title = \"", "title = \"§", 1).replacen("observes = [", "observes = [\"§\", ", 1);
     let lines = [
         "robots show rb",
         "robots check rb",
@@ -131,19 +134,23 @@ fn rooms_and_robots_with_hostile_strings_are_shown_escaped() {
     let wrong = "title = \"§\"\nurdf = \"§\"\n\"§\" = \"§\"\n";
     let place = check(place, "rb/robot.toml", wrong, &["robots check rb", "check p.motet --robot rb FORMAT"]);
     let place = check(place, "u/robot.urdf", URDF, &["robots add u/robot.urdf"]);
-    check(place, "motet.toml", "robot = \"§\"\nscene = \"§\"\n\"§\" = 1\n", &["check p.motet", "scenes show"]);
+    check(
+        place,
+        "motet.toml",
+        "robot = \"§\"\nscene = \"§\"\n\"§\" = 1\n",
+        &["check p.motet", "scenes show"],
+    );
 }
 
 #[test]
 fn other_inputs_with_hostile_strings_are_shown_escaped() {
-    let place = Place::new("hostile_others").file(
-        "p.motet",
-        "policy p for hsr { let a = ask(\"Which?\") fail a }\n",
-    );
+    let place =
+        Place::new("hostile_others").file("p.motet", "policy p for hsr { let a = ask(\"Which?\") fail a }\n");
     let domain = "(define (domain §) (:requirements :§) (:predicates (§ ?§ - §)) (:action § :effect (§ ?x)))";
     let place = check(place, "d.pddl", domain, &["import pddl d.pddl d.pddl FORMAT"]);
     let place = check(place, "m.yaml", "image: §\nresolution: §\n§: §\n", &["import map m.yaml FORMAT"]);
-    let sdf = "<sdf version='1.9'><world name='§'><model name='§'><static>§</static><§/></model></world></sdf>";
+    let sdf =
+        "<sdf version='1.9'><world name='§'><model name='§'><static>§</static><§/></model></world></sdf>";
     let place = check(place, "w.sdf", sdf, &["import sdf w.sdf FORMAT"]);
     let tree = "<root BTCPP_format='4'><BehaviorTree ID='§'><§ name='§' x='§'/></BehaviorTree></root>";
     let place = check(place, "t.xml", tree, &["import btcpp t.xml FORMAT"]);
@@ -157,9 +164,11 @@ fn other_inputs_with_hostile_strings_are_shown_escaped() {
     let domain = "action `§`(a: §)\nentity `§`: §\n";
     let place = check(place, "d.motet", domain, &["check p.motet --domain d.motet FORMAT"]);
     let exchange = "§ <user> § <robot> go to §, fly §, say §\n<vision> §\n<user> § <user>";
-    let lines = ["dialog x.txt --robot hsr --scene kitchen", "dialog x.txt --robot hsr --scene kitchen --to json"];
+    let lines =
+        ["dialog x.txt --robot hsr --scene kitchen", "dialog x.txt --robot hsr --scene kitchen --to json"];
     let place = check(place, "x.txt", exchange, &lines);
-    let row = r#"{"messages": [{"role": "§", "content": "§"}], "motet": {"robot": "§", "scene": "§", "§": "§"}}"#;
+    let row =
+        r#"{"messages": [{"role": "§", "content": "§"}], "motet": {"robot": "§", "scene": "§", "§": "§"}}"#;
     let lines = ["dataset lint r.jsonl", "dataset lint r.jsonl --format json --shares"];
     let place = check(place, "r.jsonl", row, &lines);
     let place = check(place, "scenes.jsonl", r#"{"name": "§", "scene": {"§": 1}}"#, &lines);
@@ -173,16 +182,18 @@ fn other_inputs_with_hostile_strings_are_shown_escaped() {
 
 #[test]
 fn journals_with_hostile_strings_are_shown_escaped() {
-    let place = Place::new("hostile_journals").file("p.motet", "policy KEY for hsr { say(\"KEY\") fail \"KEY\" }\n");
+    let place =
+        Place::new("hostile_journals").file("p.motet", "policy KEY for hsr { say(\"KEY\") fail \"KEY\" }\n");
     place.run("run p.motet --scene kitchen --speed max --record rec").check(3, &[]);
     let journal = place.read("rec/000000000000.journal");
     let short: String = journal.split_inclusive('\n').take(6).collect();
     let (mut place, mut shown) = (place, 0);
     for (folder, text) in [("whole", &journal), ("short", &short)] {
         place = place.file(&format!("{folder}/000000000000.journal"), forged(text));
-        for line in ["replay F", "replay F --at 3", "replay F --json --at 3", "view F -o page.html", "export mcap F"]
-            .into_iter()
-            .chain(["run --resume F --speed max", "run --resume F --format json"])
+        for line in
+            ["replay F", "replay F --at 3", "replay F --json --at 3", "view F -o page.html", "export mcap F"]
+                .into_iter()
+                .chain(["run --resume F --speed max", "run --resume F --format json"])
         {
             let line = line.replace('F', folder);
             let ran = place.run(&line);

@@ -9,7 +9,7 @@ const PROBLEM: &str =
     "(define (problem one) (:domain lamps) (:objects a b - lamp) (:init (lit a)) (:goal (lit b)))";
 
 #[test]
-fn a_plan_is_decided_by_its_domain() {
+fn plan_is_decided_by_its_domain() {
     let place = Place::new("import")
         .file("d.pddl", DOMAIN)
         .file("p.pddl", PROBLEM)
@@ -34,7 +34,7 @@ const ROOM: &str = "P2 8 8 255\n 0 0 0 0 0 0 0 0\n 254 254 254 254 254 254 205 0
     254 254 254 254 254 254 254 0\n 254 254 254 254 254 254 254 0\n 254 254 254 254 254 254 254 0\n";
 
 #[test]
-fn a_map_becomes_walls_that_stand_in_the_way() {
+fn map_becomes_walls_that_stand_in_the_way() {
     let place = Place::new("import_map")
         .file("room.yaml", MAP)
         .file("room.pgm", ROOM)
@@ -64,7 +64,7 @@ const SDF: &str = r#"<sdf version="1.9"><world name="w">
     </collision></link></model></world></sdf>"#;
 
 #[test]
-fn an_sdf_becomes_a_scene_with_things_to_grasp() {
+fn sdf_becomes_a_scene_with_things_to_grasp() {
     let place = Place::new("import_sdf")
         .file("room.sdf", SDF)
         .file("ring.sdf", SDF.replace("<pose>1.6 0 0 0 0 0", "<pose relative_to=\"cup\">0 0 0 0 0 0"))

@@ -86,7 +86,7 @@ fn motions_are_verified_also_after_a_resumption() {
 }
 
 #[test]
-fn an_export_that_fails_leaves_what_was_there() {
+fn export_that_fails_leaves_what_was_there() {
     let place = Place::new("journal_export").file("good.motet", GOOD).file("run.mcap", "kept");
     place.run("export mcap nowhere -o run.mcap").check(2, &["err:cannot read `nowhere`"]);
     assert_eq!(place.read("run.mcap"), "kept");
@@ -102,7 +102,7 @@ fn an_export_that_fails_leaves_what_was_there() {
 }
 
 #[test]
-fn a_run_that_was_killed_before_its_first_entry_is_begun_again() {
+fn run_that_was_killed_before_its_first_entry_is_begun_again() {
     let place =
         Place::new("journal_unbegun").file("good.motet", GOOD).file("run/000000000000.journal", "{\"v");
     place.run("run --resume run").check(2, &["err:no run has begun in it"]);
@@ -113,7 +113,7 @@ fn a_run_that_was_killed_before_its_first_entry_is_begun_again() {
 }
 
 #[test]
-fn a_changed_journal_is_refused() {
+fn changed_journal_is_refused() {
     let place = Place::new("journal_changed").file("good.motet", GOOD);
     place.run("run good.motet --scene kitchen --speed max --record run").check(0, &[]);
     let path = journal(&place.path("run"));
@@ -217,7 +217,7 @@ fn once_each(folder: &Path) {
 
 /// The runs of a conversation are kept as well, with the policies that took over.
 #[test]
-fn a_conversation_is_recorded_and_replays() {
+fn conversation_is_recorded_and_replays() {
     let place = Place::new("journal_talk");
     let world = "--robot hsr --scene kitchen --no-geometry --speed max --ask never";
     let words = ["do", "bring me the coke", "--say", "8s: bring me the apple instead", "--record", "talk"];

@@ -316,7 +316,7 @@ const PACED: [&str; 4] = ["--drive", "kinematic", "--profile", "ideal"];
 const LONG: &str = "policy long for hsr { wait 10 min done }";
 
 #[test]
-fn a_run_is_a_task_whose_id_is_its_journal() {
+fn run_is_a_task_whose_id_is_its_journal() {
     let place = Place::new("mcp_task");
     let mut client = Client::with_tasks(&place, &JUMPING);
     let begin = |client: &mut Client, policy: &str| {
@@ -402,7 +402,7 @@ fn one_run_goes_on_at_a_time_and_may_be_swapped_and_stopped() {
 }
 
 #[test]
-fn a_policy_is_checked_in_the_state_that_the_runs_have_left() {
+fn policy_is_checked_in_the_state_that_the_runs_have_left() {
     let place = Place::new("mcp_state");
     let mut client = Client::new(&place, &JUMPING);
     let take = json!({"policy": "policy take for hsr { search(\"mug_1\", kitchen_table) pick(mug_1) done }"});
@@ -418,7 +418,7 @@ fn a_policy_is_checked_in_the_state_that_the_runs_have_left() {
 }
 
 #[test]
-fn a_firing_of_a_monitor_is_the_message_of_the_run() {
+fn firing_of_a_monitor_is_the_message_of_the_run() {
     if !has_python() {
         return;
     }
@@ -442,7 +442,7 @@ fn a_firing_of_a_monitor_is_the_message_of_the_run() {
 }
 
 #[test]
-fn the_files_for_registries_and_agents_fit_the_command() {
+fn files_for_registries_and_agents_fit_the_command() {
     let root = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
     let read = |name: &str| std::fs::read_to_string(format!("{root}/{name}")).unwrap();
     let server: Value = serde_json::from_str(&read("server.json")).unwrap();

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 const DO: &str = "do go_to_the_counter --robot hsr --scene kitchen --no-geometry --speed max --ask never";
 
 #[test]
-fn a_reply_is_carried_out_and_kept_and_the_key_is_not() {
+fn reply_is_carried_out_and_kept_and_the_key_is_not() {
     let place = Place::new("model_there").file("room.png", [0x89, b'P', b'N', b'G']);
     let reply = concat!(
         r#"{"choices": [{"message": {"content": "Here it is:\n```\npolicy go_there for hsr {"#,
@@ -45,7 +45,7 @@ fn pointed(name: &str, answer: &str) -> (Option<i32>, String, Vec<Value>, Vec<Va
 }
 
 #[test]
-fn a_choice_of_a_policy_is_the_operators() {
+fn choice_of_a_policy_is_the_operators() {
     let policy = "policy choose_one for hsr {\n    let drink = choose(\"Which one?\", [coke, bottle])\n    \
                   say(\"You chose {drink}.\")\n}\n";
     let reply = json!({"choices": [{"message": {"content": policy}}]}).to_string();
@@ -64,7 +64,7 @@ fn a_choice_of_a_policy_is_the_operators() {
 }
 
 #[test]
-fn a_model_sees_what_the_camera_sees_and_points_at_it() {
+fn model_sees_what_the_camera_sees_and_points_at_it() {
     let (code, stderr, kept, heard) = pointed("model_points", "{\"point\": [320, 240]}");
     assert_eq!((code, heard.len()), (Some(0), 2), "{stderr}");
     let picture = |part: &Value| part["image_url"]["url"].as_str().unwrap_or_default().to_owned();
@@ -80,7 +80,7 @@ fn a_model_sees_what_the_camera_sees_and_points_at_it() {
 }
 
 #[test]
-fn a_point_that_is_none_is_said_with_the_reason() {
+fn point_that_is_none_is_said_with_the_reason() {
     for (name, answer, words) in [
         ("outside", "{\"point\": [700, 20]}", "outside of the image of 640 x 480 pixels"),
         ("sky", "{\"point\": [5, 5]}", "there is no depth within 3 pixels of (5.0, 5.0)"),
@@ -96,7 +96,7 @@ fn a_point_that_is_none_is_said_with_the_reason() {
 }
 
 #[test]
-fn a_server_that_is_not_there_is_said_and_the_builtin_planner_plans_only_if_asked() {
+fn server_that_is_not_there_is_said_and_the_builtin_planner_plans_only_if_asked() {
     let place = Place::new("model_gone");
     let line = format!("{DO} --planner http://127.0.0.1:9 --model m --timeout 60");
     let ran = place.run(&line);

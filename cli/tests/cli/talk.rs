@@ -25,7 +25,7 @@ fn request(place: &Place, request: &str, flags: &[&str]) -> Ran {
 }
 
 #[test]
-fn a_conversation_remembers_what_was_done_and_answers_questions() {
+fn conversation_remembers_what_was_done_and_answers_questions() {
     let place = Place::new("talk_memory");
     let lines = [
         "What do you hold?",
@@ -59,7 +59,7 @@ fn a_conversation_remembers_what_was_done_and_answers_questions() {
 }
 
 #[test]
-fn a_conversation_ends_with_its_input_and_says_what_was_not_done() {
+fn conversation_ends_with_its_input_and_says_what_was_not_done() {
     let place = Place::new("talk_codes").file("lines.txt", "where is the coke?\n");
     talk(&place, "--speed max", &[]).check(0, &[]);
     for (line, texts) in [
@@ -113,7 +113,7 @@ fn words_stop_and_hold_a_robot_at_every_speed() {
 }
 
 #[test]
-fn a_robot_on_a_port_is_talked_with() {
+fn robot_on_a_port_is_talked_with() {
     if !has_python() {
         return;
     }
@@ -139,7 +139,7 @@ fn a_robot_on_a_port_is_talked_with() {
 }
 
 #[test]
-fn a_state_reaches_plans_and_worlds() {
+fn state_reaches_plans_and_worlds() {
     let place = Place::new("talk_state").file(
         "good.motet",
         "policy put for hsr {\n    go(counter)\n    \

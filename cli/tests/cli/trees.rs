@@ -6,7 +6,7 @@ const TIDY: &str = "policy tidy for hsr { go(kitchen_table) pick(mug_1) \
                     try { go(counter) place(mug_1, counter) } catch unreachable { say(\"I cannot\") } }\n";
 
 #[test]
-fn a_policy_comes_back_from_its_tree() {
+fn policy_comes_back_from_its_tree() {
     let place = Place::new("trees").file("tidy.motet", TIDY);
     let room = "--robot hsr --scene kitchen";
     place.run(&format!("export btcpp tidy.motet {room} -o tidy.xml")).check(0, &[]);

@@ -21,8 +21,8 @@ pub(crate) mod unbound;
 pub(crate) mod words;
 
 pub use self::arithmetic::{MAX_COUNT, MAX_SECONDS};
-pub(crate) use self::builder::{MAX_INITIALLY, MAX_PATTERNS};
 pub use self::builder::{LibraryBuilder, MAX_DECLARATIONS, MAX_FLUENT_PARAMS};
+pub(crate) use self::builder::{MAX_INITIALLY, MAX_PATTERNS};
 pub use self::card::MAX_RESOURCES;
 pub use self::library::Library;
 

@@ -86,11 +86,11 @@ impl Delta {
         let count = self.written.partition_point(|(rank, _)| rank.is_pattern());
         effort::spend(count);
         let patterns = self.written.iter().take(count);
-        let covering = patterns.filter(|(rank, _)| {
+        let mut covering = patterns.filter(|(rank, _)| {
             let (other, pattern) = rank.atom();
             other == fluent && pattern.covers(key)
         });
-        let covering = covering.last().map(|(_, value)| *value);
+        let covering = covering.next_back().map(|(_, value)| *value);
         if base.is_symbolic(fluent, key) && !key.is_pattern() {
             // Without an entry it is what all that it may be agree on.
             let open = TruthSet::NOTHING_KNOWN;

@@ -391,7 +391,7 @@ fn every_code_has_a_page_and_every_page_a_code() {
 }
 
 #[test]
-fn a_page_is_found_in_any_case() {
+fn page_is_found_in_any_case() {
     let page = explain_pages::page("m0501").map(|page| page.code);
     assert_eq!(page, Some("M0501"));
 }

@@ -168,7 +168,7 @@ fn walled() -> Scene {
 }
 
 #[test]
-fn a_way_that_is_blocked_is_refused_with_its_story() {
+fn way_that_is_blocked_is_refused_with_its_story() {
     let (said, since) = refusal(&session(&walled()), "policy wash for hsr { go(user) go(sink) }");
     assert!(said.starts_with("M060"), "{said}");
     assert!(said.contains("the robot stands where `go(user)` brought it"), "{said}");
@@ -176,7 +176,7 @@ fn a_way_that_is_blocked_is_refused_with_its_story() {
 }
 
 #[test]
-fn an_infeasible_motion_that_is_never_reached_is_no_error() {
+fn infeasible_motion_that_is_never_reached_is_no_error() {
     let found =
         motions(&session(&walled()), "policy wash for hsr { go(user) if open(drawer_1) { go(sink) } }");
     assert_eq!(found[0].1, Verdict::Proven);
@@ -185,7 +185,7 @@ fn an_infeasible_motion_that_is_never_reached_is_no_error() {
 }
 
 #[test]
-fn a_loop_comes_to_an_end() {
+fn loop_comes_to_an_end() {
     let found = motions(&KITCHEN, "policy pace for hsr { repeat 3 { go(user) go(sink) } }");
     assert_eq!(found.len(), 2);
 }
@@ -276,7 +276,7 @@ fn with_zone(at: [f64; 2], size: [f64; 2]) -> Scene {
 }
 
 #[test]
-fn a_way_into_a_zone_that_is_kept_out_of_is_refused() {
+fn way_into_a_zone_that_is_kept_out_of_is_refused() {
     let session = session(&with_zone([2.1, -2.1], [2.4, 2.4]));
     let found = motions(&session, "policy wash for hsr { go(sink) }");
     assert_eq!(found[0].1, Verdict::Proven);
@@ -290,7 +290,7 @@ fn a_way_into_a_zone_that_is_kept_out_of_is_refused() {
 }
 
 #[test]
-fn a_distance_is_kept_by_the_whole_motion() {
+fn distance_is_kept_by_the_whole_motion() {
     let said = refusal(&KITCHEN, "policy come for hsr keep distance(user) >= 1.5 m { go(user) }").0;
     assert!(said.contains("what `keep distance(user) >= 1.5 m` forbids"), "{said}");
     let found = motions(&KITCHEN, "policy wash for hsr keep distance(user) >= 30 cm { go(sink) }");
@@ -298,7 +298,7 @@ fn a_distance_is_kept_by_the_whole_motion() {
 }
 
 #[test]
-fn a_distance_to_something_without_a_pose_is_left_to_the_run() {
+fn distance_to_something_without_a_pose_is_left_to_the_run() {
     let mut scene = kitchen();
     scene.entities["user"].pose = None;
     let found = motions(&session(&scene), "policy wash for hsr keep distance(user) >= 1 m { go(sink) }");

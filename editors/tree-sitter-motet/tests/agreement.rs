@@ -160,7 +160,7 @@ fn queries_fit_the_grammar() {
 }
 
 #[test]
-fn the_generated_parser_is_current() {
+fn generated_parser_is_current() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
     let json = fs::read_to_string(folder.join("src/grammar.json")).unwrap();
     let optimizations = tree_sitter_generate::OptLevel::default();
@@ -176,7 +176,7 @@ fn the_generated_parser_is_current() {
 }
 
 #[test]
-fn the_words_of_the_grammar_are_those_of_the_compiler() {
+fn words_of_the_grammar_are_those_of_the_compiler() {
     let source = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("grammar.js")).unwrap();
     let (_, list) = source.split_once("const RESERVED = [").unwrap();
     let (list, _) = list.split_once(']').unwrap();

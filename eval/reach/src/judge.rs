@@ -54,7 +54,7 @@ pub struct Case {
     /// Its truth by exhaustive search.
     pub truth: Truth,
     /// Answer of the query.
-    pub said: Said,
+    pub said: AnswerKind,
     /// Time of the answer, the room made ready.
     pub took: Duration,
     /// Time to make the room ready.
@@ -68,7 +68,7 @@ pub struct Case {
 /// The kinds of answers.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Said {
+pub enum AnswerKind {
     /// With a witness.
     Feasible,
     /// Proven that there is none.
@@ -148,7 +148,7 @@ fn file(path: &Option<PathBuf>) -> Result<Option<std::fs::File>, String> {
 /// Case whose truth is not asked for.
 #[derive(Default)]
 struct Answered {
-    kinds: BTreeMap<Said, usize>,
+    kinds: BTreeMap<AnswerKind, usize>,
     faults: Vec<String>,
     negative: Vec<Duration>,
 }
@@ -195,7 +195,7 @@ impl Judged<'_> {
             let answer = room.answer(&MotionQuery::Reach(target.clone(), None), budget);
             let took = clock().saturating_sub(begin);
             let name = format!("{} {} {target}", self.name, self.seed);
-            *answered.kinds.entry(Said::of(&answer)).or_default() += 1;
+            *answered.kinds.entry(AnswerKind::of(&answer)).or_default() += 1;
             let MotionAnswer::Feasible(witness) = &answer else {
                 answered.negative.push(took);
                 continue;
@@ -237,7 +237,7 @@ impl Judged<'_> {
                 MotionAnswer::Infeasible(why) => reason = Some(why.reason.to_string()),
                 MotionAnswer::Unknown(why) => reason = Some(format!("{why:?}")),
             }
-            let said = Said::of(&answer);
+            let said = AnswerKind::of(&answer);
             let case = Case { name, truth, said, took, set_up, faults: found, reason };
             let subject = export::Subject { model: self.model, scene: self.scene, world: &world };
             let write = |out: &mut Option<std::fs::File>, line: &dyn Fn() -> serde_json::Value| match out {
@@ -277,7 +277,7 @@ fn clock() -> Duration {
     Duration::new(time.tv_sec.unsigned_abs(), u32::try_from(time.tv_nsec).unwrap_or_default())
 }
 
-impl Said {
+impl AnswerKind {
     fn of(answer: &MotionAnswer) -> Self {
         match answer {
             MotionAnswer::Feasible(_) => Self::Feasible,
@@ -292,7 +292,7 @@ impl Case {
     /// Answered with a witness that holds.
     #[must_use]
     pub fn holds(&self) -> bool {
-        self.said == Said::Feasible && self.faults.is_empty()
+        self.said == AnswerKind::Feasible && self.faults.is_empty()
     }
 
     /// The search found a way, or a witness that holds shows one.
@@ -304,7 +304,7 @@ impl Case {
     /// Certified to have no state, and it has one.
     #[must_use]
     pub fn is_contradicted(&self) -> bool {
-        self.said == Said::Certified && (self.is_reachable() || self.truth == Truth::NoWay)
+        self.said == AnswerKind::Certified && (self.is_reachable() || self.truth == Truth::NoWay)
     }
 
     /// Describes the faults in a line.
@@ -315,18 +315,18 @@ impl Case {
             return Some(format!("{}: the witness does not hold: {fault}", self.name));
         }
         match (self.truth, self.said) {
-            (Truth::Reachable | Truth::NoWay, Said::Certified) => {
+            (Truth::Reachable | Truth::NoWay, AnswerKind::Certified) => {
                 Some(format!("{}: certified to have no state, and it has one: {reason}", self.name))
             }
-            (Truth::Reachable, Said::Exhausted | Said::Unknown) => {
+            (Truth::Reachable, AnswerKind::Exhausted | AnswerKind::Unknown) => {
                 Some(format!("{}: reachable, and missed: {reason}", self.name))
             }
-            (Truth::NoState, Said::Exhausted | Said::Unknown) => {
+            (Truth::NoState, AnswerKind::Exhausted | AnswerKind::Unknown) => {
                 Some(format!("{}: no state, not certified: {reason}", self.name))
             }
-            (Truth::Reachable, Said::Feasible)
-            | (Truth::NoWay, Said::Feasible | Said::Exhausted | Said::Unknown)
-            | (Truth::NoState, Said::Feasible | Said::Certified) => None,
+            (Truth::Reachable, AnswerKind::Feasible)
+            | (Truth::NoWay, AnswerKind::Feasible | AnswerKind::Exhausted | AnswerKind::Unknown)
+            | (Truth::NoState, AnswerKind::Feasible | AnswerKind::Certified) => None,
         }
     }
 }

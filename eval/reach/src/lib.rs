@@ -22,7 +22,7 @@ mod scenery;
 mod truth;
 
 pub use check::faults;
-pub use judge::{Case, Said, Settings, run};
+pub use judge::{AnswerKind, Case, Settings, run};
 pub use model::{Model, robot};
 pub use report::{Table, command};
 pub use room::{furnished, targets};

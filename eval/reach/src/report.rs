@@ -6,7 +6,7 @@ use std::time::Duration;
 use motet_geometry::planning::SearchBudget;
 use serde::Serialize;
 
-use crate::judge::{Case, Said, Settings, run};
+use crate::judge::{AnswerKind, Case, Settings, run};
 use crate::truth::Truth;
 
 /// Shares are in percent, times in microseconds; a time of no case at all is missing.
@@ -56,24 +56,27 @@ impl Table {
         };
         let count = |truth: Truth| cases.iter().filter(|case| case.truth == truth && !holds(case)).count();
         let no_state = count(Truth::NoState);
-        let certified = |case: &&Case| case.said == Said::Certified && case.truth == Truth::NoState;
+        let certified = |case: &&Case| case.said == AnswerKind::Certified && case.truth == Truth::NoState;
         let times = |is: &dyn Fn(&&Case) -> bool, of: &dyn Fn(&Case) -> Duration| {
             spread(cases.iter().filter(is).map(of).collect())
         };
-        let negative = |case: &&Case| matches!(case.said, Said::Certified | Said::Exhausted);
+        let negative = |case: &&Case| matches!(case.said, AnswerKind::Certified | AnswerKind::Exhausted);
         Self {
             robot: robot.into(),
             targets: cases.len(),
             reachable: reachable.len(),
             no_way: count(Truth::NoWay),
             no_state,
-            positives: cases.iter().filter(|case| case.said == Said::Feasible).count(),
+            positives: cases.iter().filter(|case| case.said == AnswerKind::Feasible).count(),
             uncertified_positives: cases.iter().filter(|case| !case.faults.is_empty()).count(),
             recall: within(Duration::MAX),
             recall_at: [100, 1_000, 10_000].map(|micros| within(Duration::from_micros(micros))),
             certified: percent(cases.iter().filter(certified).count(), no_state),
             contradicted: cases.iter().filter(|case| case.is_contradicted()).count(),
-            unknown: percent(cases.iter().filter(|case| case.said == Said::Unknown).count(), cases.len()),
+            unknown: percent(
+                cases.iter().filter(|case| case.said == AnswerKind::Unknown).count(),
+                cases.len(),
+            ),
             feasible_us: times(&holds, &|case| case.took),
             infeasible_us: times(&negative, &|case| case.took),
             set_up_us: times(&|_| true, &|case| case.set_up),

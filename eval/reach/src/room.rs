@@ -13,7 +13,7 @@ use crate::chance::{Chance, seeded};
 /// The room of a seed for a robot, which stands at its origin in the posture `home`.
 #[must_use]
 pub fn furnished(machine: &RobotModel, seed: u64) -> Scene {
-    let mut made = Made { scene: Scene::default(), chance: seeded(seed), outlines: vec![], turn: 0.0 };
+    let mut made = RoomBuilder { scene: Scene::default(), chance: seeded(seed), outlines: vec![], turn: 0.0 };
     match machine.card().base.drive {
         Drive::Fixed => made.bench(),
         Drive::Omnidirectional | Drive::Legged | Drive::Differential => {
@@ -31,7 +31,7 @@ pub fn targets(scene: &Scene) -> Vec<SmolStr> {
     scene.entities.values().filter(|entity| entity.kind == "Object").map(|entity| entity.id.clone()).collect()
 }
 
-struct Made {
+struct RoomBuilder {
     scene: Scene,
     chance: SplitMix64,
     /// Centres and radii of what stands on the floor.
@@ -55,7 +55,7 @@ impl Place {
     }
 }
 
-impl Made {
+impl RoomBuilder {
     /// A room about a robot so wide.
     fn rooms(&mut self, wide: f64) {
         self.outlines.push(([0.0, 0.0], wide * 0.8 + 0.1));

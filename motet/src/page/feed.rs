@@ -19,7 +19,7 @@ use super::outline::outline;
 use super::source::PolicyText;
 use super::tree::{StepStatus, StepTree};
 use super::world::PageWorld;
-use crate::shown::escape;
+use crate::printable::escape;
 
 /// Facts beyond which beliefs are not compared entry by entry.
 const MOST_FACTS: usize = 5_000;

@@ -8,7 +8,7 @@ use motet_graph::draw::Names;
 use motet_graph::{Graph, NodeId, NodeKind, ROOT, Reaction, RegionId, Term};
 use motet_runtime::{Command, Event, NodeEnding, Time, TraceEvent, TraceEventKind, Verification};
 
-use crate::shown::escape;
+use crate::printable::escape;
 
 /// Status of a step.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

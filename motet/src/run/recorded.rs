@@ -14,7 +14,7 @@ use motet_runtime::{
 };
 
 use super::events::RunEvents;
-use super::{Room, create_journal, engine, journal_head, start_state};
+use super::{ObservedScene, create_journal, engine, journal_head, start_state};
 use crate::Error;
 
 /// Run that is over.
@@ -69,7 +69,7 @@ pub fn recorded(
         journal: vec![first_entry(run, &engine, &start)],
         event: None,
         at: Time::ZERO,
-        room: Room::new(opened.scene.clone()),
+        room: ObservedScene::new(opened.scene.clone()),
         guard,
         control,
         looks_every,
@@ -100,7 +100,7 @@ struct Recorder<'a> {
     /// Event that the engine handles.
     event: Option<Event>,
     at: Time,
-    room: Room,
+    room: ObservedScene,
     guard: Option<Guard>,
     control: &'a mut dyn FnMut() -> RunControl,
     looks_every: Time,

@@ -16,7 +16,7 @@ use crate::page::entries::EntryTracker;
 use crate::page::feed::PageFeed;
 use crate::page::source::PolicyText;
 use crate::page::world::PageWorld;
-use crate::run::{Room, engine, simulator, start_state, undated_head};
+use crate::run::{ObservedScene, engine, simulator, start_state, undated_head};
 
 /// Number of items after which a run stops.
 const MAX_ITEMS: usize = 20_000;
@@ -49,25 +49,25 @@ pub(super) fn items(
     let mut feed = PageFeed::new(world);
     feed.text = Some(text);
     items.extend(feed.entry(0, &JournalEntry::Head(Box::new(head))).map(|(_, item)| item));
-    let room = Room::new(opened.scene.clone());
+    let room = ObservedScene::new(opened.scene.clone());
     let entries = EntryTracker::from(1);
-    let mut onlooker = Onlooker { feed, items, entries, room, guard, last_motion: None };
+    let mut recorder = ItemRecorder { feed, items, entries, room, guard, last_motion: None };
     let from = driver.begin_run(Time::ZERO, RUN, Some(engine.graph()));
-    motet_runtime::run(&mut engine, &mut driver, &mut onlooker, from);
-    Ok(onlooker.items)
+    motet_runtime::run(&mut engine, &mut driver, &mut recorder, from);
+    Ok(recorder.items)
 }
 
 /// Observer that keeps the items of a run.
-struct Onlooker {
+struct ItemRecorder {
     feed: PageFeed,
     items: Vec<Value>,
     entries: EntryTracker,
-    room: Room,
+    room: ObservedScene,
     guard: Option<Guard>,
     last_motion: Option<Time>,
 }
 
-impl Observer for Onlooker {
+impl Observer for ItemRecorder {
     fn event(&mut self, _now: Time, event: &Event) {
         self.entries.event(event);
     }

@@ -278,7 +278,7 @@ mod tests {
 <scene><instance_visual_scene url="#s"/></scene></COLLADA>"##;
 
     #[test]
-    fn a_polygon_is_placed_by_its_nodes_in_metres() {
+    fn polygon_is_placed_by_its_nodes_in_metres() {
         let triangles = read(TRIANGLE.as_bytes()).unwrap();
         assert_eq!(triangles.len(), 2);
         let corner = triangles[0][1];

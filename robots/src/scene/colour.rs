@@ -1,5 +1,9 @@
 //! Colours of things in pictures: the one that a name of a thing says, else one of a palette.
 
+use std::hash::Hasher as _;
+
+use fnv::FnvHasher;
+
 use super::model::Entity;
 
 /// Red, green, blue.
@@ -71,10 +75,9 @@ pub fn colour(id: &str, entity: Option<&Entity>, palette: Palette) -> Colour {
         Palette::Things => THINGS,
         Palette::Furniture => FURNITURE,
     };
-    // FNV-1a.
-    let hash = id.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-    });
+    let mut hasher = FnvHasher::default();
+    hasher.write(id.as_bytes());
+    let hash = hasher.finish();
     let count = u64::try_from(colours.len()).unwrap_or(1).max(1);
     let at = usize::try_from(hash % count).unwrap_or_default();
     colours.get(at).copied().unwrap_or(PERSON_COLOUR)

@@ -165,11 +165,13 @@ fn support_distance(base: [f64; 2], scene: &Scene, entity: &Entity) -> Option<f6
     distance(base, scene, support, ServedKind::Furniture).least
 }
 
+/// Greatest number of supports below one another that count: no real pile has more.
+const MAX_SUPPORTS: usize = 64;
+
 /// Entities that carry or contain an entity, the nearest first.
 fn supports<'s>(scene: &'s Scene, entity: &'s Entity) -> impl Iterator<Item = &'s Entity> {
     let below = |entity: &Entity| scene.entities.get(entity.on.as_ref().or(entity.inside.as_ref())?);
-    // Supports have no cycle; the bound holds for a scene that was not read.
-    std::iter::successors(below(entity), move |support| below(support)).take(scene.entities.len())
+    std::iter::successors(below(entity), move |support| below(support)).take(MAX_SUPPORTS)
 }
 
 /// Distance by which drawers may move an entity, in m.

@@ -15,22 +15,22 @@ pub(crate) struct Protocol {
     /// Headers of every request.
     pub(crate) headers: &'static [(&'static str, &'static str)],
     /// Places of text.
-    pub(crate) texts: &'static [Place],
+    pub(crate) texts: &'static [JsonPlace],
     /// Places of the words with which a model declines.
-    pub(crate) refusals: &'static [Place],
+    pub(crate) refusals: &'static [JsonPlace],
     /// Endings, of which the first that fits counts.
     pub(crate) endings: &'static [Ending],
     /// Places of messages of errors.
-    pub(crate) errors: &'static [Place],
+    pub(crate) errors: &'static [JsonPlace],
     /// Places of the numbers of tokens of the chat and of the reply.
     pub(crate) tokens: (&'static [&'static str], &'static [&'static str]),
     /// Types of events behind which none follows.
     pub(crate) last: &'static [&'static str],
 }
 
-/// Place in an answer or an event.
+/// JsonPlace in an answer or an event.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Place {
+pub(crate) struct JsonPlace {
     /// Type of the events that have it; empty for all.
     event: &'static str,
     /// Path as of RFC 6901, in which `*` is every item of a list.
@@ -57,12 +57,12 @@ pub(crate) enum Meaning {
     Broken,
 }
 
-const fn place(path: &'static str) -> Place {
-    Place { event: "", path }
+const fn place(path: &'static str) -> JsonPlace {
+    JsonPlace { event: "", path }
 }
 
-const fn of(event: &'static str, path: &'static str) -> Place {
-    Place { event, path }
+const fn of(event: &'static str, path: &'static str) -> JsonPlace {
+    JsonPlace { event, path }
 }
 
 const fn ends(path: &'static str, word: &'static str, means: Meaning) -> Ending {
@@ -188,7 +188,7 @@ pub(crate) fn protocol(dialect: Option<Dialect>) -> &'static Protocol {
     }
 }
 
-impl Place {
+impl JsonPlace {
     /// Text at the place: strings as they are, objects as JSON. Thoughts are none.
     pub(crate) fn texts(self, answer: &Value) -> impl Iterator<Item = String> + '_ {
         let is_meant = self.event.is_empty() || kind(answer) == self.event;

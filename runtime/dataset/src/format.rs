@@ -37,9 +37,9 @@ pub fn write(row: &Row, form: RowFormat) -> String {
     let mut value = match form {
         RowFormat::Trl => json!({
             "messages": [
-                {"role": "system", "content": content(row, &row.system, Shown::Text)},
-                {"role": "user", "content": content(row, &row.user, Shown::Picture)},
-                {"role": "assistant", "content": content(row, &row.policy, Shown::Text)},
+                {"role": "system", "content": content(row, &row.system, ImagePart::Text)},
+                {"role": "user", "content": content(row, &row.user, ImagePart::Picture)},
+                {"role": "assistant", "content": content(row, &row.policy, ImagePart::Text)},
             ],
         }),
         RowFormat::LlamaFactory => json!({
@@ -78,19 +78,19 @@ const fn column(form: RowFormat) -> Option<&'static str> {
 
 /// Place of a row's image in a message.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Shown {
+enum ImagePart {
     Text,
     Picture,
 }
 
 /// Content of a TRL message: a string, or parts in all messages of a row with an image, so that a column has
 /// one type.
-fn content(row: &Row, text: &str, shown: Shown) -> Value {
+fn content(row: &Row, text: &str, shown: ImagePart) -> Value {
     let said = json!({"type": "text", "text": text});
     match shown {
         _ if row.images.is_empty() => text.into(),
-        Shown::Text => json!([said]),
-        Shown::Picture => {
+        ImagePart::Text => json!([said]),
+        ImagePart::Picture => {
             let images = row.images.iter().map(|_| json!({"type": "image"}));
             images.chain([said]).collect()
         }

@@ -10,7 +10,7 @@ use motet_stdlib::lang::{fluents, measures};
 use motet_syntax::ast::{Expr, ExprKind};
 use motet_syntax::{FileId, Source, Syntax, print};
 
-use crate::deed;
+use crate::named_step;
 pub use crate::planned::{PlanError, Planned, PlannedRequest};
 use crate::reply_verdict::{ReplyVerdict, judge};
 
@@ -37,9 +37,10 @@ pub fn plan(
         Err(NoPlan::Budget { .. }) => supposed.plan(&goals, PLAN_BUDGET * LAST_RESORT)?,
         found => found?,
     };
-    if let Some(deed) = aims.iter().filter_map(|aim| aim.deed.as_ref()).find(|deed| !deed::has(deed, session))
+    if let Some(deed) =
+        aims.iter().filter_map(|aim| aim.deed.as_ref()).find(|deed| !named_step::has(deed, session))
     {
-        return Err(RequestError::Unfit { why: format!("I cannot {}", deed::words(deed)) }.into());
+        return Err(RequestError::Unfit { why: format!("I cannot {}", named_step::words(deed)) }.into());
     }
     let text = policy(name, robot, aims, &plan, session.scene());
     let parsed = motet_syntax::read(&Source::new("plan.motet", text), FileId(0));
@@ -111,7 +112,7 @@ pub(super) fn policy(
         let aim = aims.get(index);
         let steps: Vec<String> =
             plan.steps.iter().filter(|step| step.goal == index).map(|step| watched(step, robot)).collect();
-        let deed = aim.and_then(|aim| aim.deed.as_ref()).map(|deed| deed::steps(deed, robot, scene));
+        let deed = aim.and_then(|aim| aim.deed.as_ref()).map(|deed| named_step::steps(deed, robot, scene));
         let awaits = aim.and_then(|aim| aim.awaits.as_ref());
         if steps.is_empty() && deed.is_none() && awaits.is_none() {
             continue;

@@ -2,10 +2,10 @@
 
 mod beside;
 pub mod builtin;
-mod deed;
 pub mod dialogue;
 pub mod inteliplan;
 pub mod model;
+mod named_step;
 mod planned;
 mod planner;
 pub mod prompt;

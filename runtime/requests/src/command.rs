@@ -1,5 +1,6 @@
 //! Sentences as commands and statements: which verb, what it is about, where from and where to.
 
+use crate::argument::part;
 use crate::engine::english::{
     BUT_DO_NOT, GOES_ON_AT_HITHER, GOES_ON_DO_NOT, ONTO, PART_FOLLOWS_OVER, PREDICATES, SAYS_WHERE, SERIES,
     WHERE_IT_BELONGS,
@@ -8,7 +9,6 @@ use crate::engine::noun::{Noun, Relation, Spot, Which, is_direction, located, no
 use crate::engine::rule::Rules;
 use crate::engine::token::{Token, stands};
 use crate::engine::verb::{Act, begins, is_want, verb};
-use crate::part::part;
 use crate::remark::is_boundary;
 
 /// One thing that is asked for.

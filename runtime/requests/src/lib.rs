@@ -1,16 +1,16 @@
 #![doc = include_str!("../README.md")]
 
 mod answer;
-mod carry;
+mod argument;
+mod carry_goal;
 mod command;
-mod deed;
+mod command_goal;
 mod engine;
-mod errand;
 mod error;
 mod extreme;
 mod meaning;
+mod named_step;
 mod parse;
-mod part;
 mod polarity;
 mod question;
 mod reference;
@@ -33,7 +33,7 @@ pub use question::{RoomQuestion, Topic, deed, is_question, question};
 
 /// A step that a request asks for by its name.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Deed {
+pub enum NamedStep {
     /// Turns on the spot, by degrees to the left.
     Turn { degrees: i32 },
     /// Gets on its feet.
@@ -106,7 +106,7 @@ impl<'a> RequestContext<'a> {
 /// Reads reported locations from an answer: "it should be in the cupboard" tells a place to whom asked for
 /// one, where in a request it says what shall be done. Empty where it says nothing of the kind.
 #[must_use]
-pub fn told(answer: &str, asked: Asked, situation: &RequestContext<'_>) -> Vec<ReportedLocation> {
+pub fn told(answer: &str, asked: PendingQuestion, situation: &RequestContext<'_>) -> Vec<ReportedLocation> {
     if answer.len() > MAX_REQUEST {
         return Vec::new();
     }
@@ -117,7 +117,7 @@ pub fn told(answer: &str, asked: Asked, situation: &RequestContext<'_>) -> Vec<R
 
 /// Question that an answer is given to.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Asked {
+pub enum PendingQuestion {
     /// The place of a thing: a place to open or to go to is where it may be.
     Where,
     /// An act for a thing that could not be taken.
@@ -184,7 +184,7 @@ fn understand_tokens(
     request: &str,
     situation: &RequestContext<'_>,
 ) -> Result<Intent, RequestError> {
-    if let Some((preference, rest)) = deed::preference(tokens, situation) {
+    if let Some((preference, rest)) = named_step::preference(tokens, situation) {
         let mut prefers = situation.prefers.clone();
         prefers.push(preference);
         let context = RequestContext { prefers: prefers.clone(), ..situation.clone() };
@@ -193,7 +193,7 @@ fn understand_tokens(
         return intent.map(|intent| Intent { prefers, ..intent });
     }
     let again = |tokens: &[Token]| understand_tokens(tokens, request, situation);
-    if let Some(found) = deed::excluding(tokens, situation, again) {
+    if let Some(found) = named_step::excluding(tokens, situation, again) {
         return found;
     }
     let plain = |tokens: &[Token]| {
@@ -205,14 +205,14 @@ fn understand_tokens(
     if found.as_ref().is_ok_and(|intent| !intent.aims.is_empty() || !intent.located.is_empty()) {
         return found;
     }
-    deed::understood(tokens, request, situation).unwrap_or(found)
+    named_step::understood(tokens, request, situation).unwrap_or(found)
 }
 
 #[cfg(test)]
 mod tests {
     use motet_robots::builtin;
 
-    use super::{Asked, MAX_REQUEST, RequestContext, question, told, turn, understand};
+    use super::{MAX_REQUEST, PendingQuestion, RequestContext, question, told, turn, understand};
 
     /// Texts within the limit of bytes whose reading would take seconds to hours, and people's words that are
     /// as long.
@@ -225,7 +225,7 @@ mod tests {
             let read = understand(&text, &context);
             assert!(read.is_err(), "{piece}: {read:?}");
             // They share the bound.
-            assert!(told(&text, Asked::Where, &context).len() < 1000, "{piece}");
+            assert!(told(&text, PendingQuestion::Where, &context).len() < 1000, "{piece}");
             assert_eq!((turn(&text), question(&text, &context)), (None, None), "{piece}");
         }
         let prose = "bring me the coke, then put the apple on the sink. ".repeat(MAX_REQUEST / 52);

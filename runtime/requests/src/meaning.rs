@@ -6,14 +6,14 @@ use motet_stdlib::lang::{entities, fluents};
 use motet_syntax::ast::{Expr, ExprKind};
 use smol_str::SmolStr;
 
-use crate::Deed;
+use crate::NamedStep;
 use crate::command::Command;
 use crate::engine::noun::{Noun, Phrase};
 use crate::engine::token::{Token, singular, tokens};
 use crate::engine::verb::Act;
 use crate::engine::vocabulary::{Role, Vocabulary};
 use crate::parse::Spoken;
-use crate::{Asked, Preference, ReportedLocation, RequestContext, RequestError};
+use crate::{PendingQuestion, Preference, ReportedLocation, RequestContext, RequestError};
 
 /// Roles of the things that can be carried.
 pub(super) const OBJECTS: &[Role] = &[Role::Object];
@@ -108,7 +108,11 @@ pub(super) fn understood(
 }
 
 /// Finds where somebody says that things are, in words that would otherwise ask for something.
-pub(super) fn told(tokens: &[Token], asked: Asked, situation: &RequestContext<'_>) -> Vec<ReportedLocation> {
+pub(super) fn told(
+    tokens: &[Token],
+    asked: PendingQuestion,
+    situation: &RequestContext<'_>,
+) -> Vec<ReportedLocation> {
     Reader::new(situation).told(tokens, asked)
 }
 
@@ -248,7 +252,7 @@ pub struct Aim {
     /// Condition that is waited for before the aim's turn.
     pub awaits: Option<Expr>,
     /// Step that the request names, behind the steps of the goal.
-    pub deed: Option<Deed>,
+    pub deed: Option<NamedStep>,
 }
 
 impl Aim {

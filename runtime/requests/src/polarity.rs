@@ -32,7 +32,7 @@ pub enum Polarity<'a> {
 /// ```
 #[must_use]
 pub fn polarity(answer: &str) -> Polarity<'_> {
-    let said = Said::new(answer);
+    let said = AnswerText::new(answer);
     let rest = said.skip_all(0, &ANSWER_COURTESY);
     if let Some(left) = said.skip(rest, &IGNORANT) {
         return if said.is_end(left) { Polarity::Ignorant } else { Polarity::Neither };
@@ -91,7 +91,7 @@ pub fn proceeds(answer: &str) -> bool {
 
 /// True if an answer is phrases of one list and then of another, with courtesy around them.
 fn is_whole(answer: &str, phrases: &Phrases, behind: &Phrases) -> bool {
-    let said = Said::new(answer);
+    let said = AnswerText::new(answer);
     let begin = said.skip_all(0, &ANSWER_COURTESY);
     said.skip(begin, phrases).is_some_and(|end| {
         let end = said.skip_all(said.skip_all(end, phrases), &ANSWER_COURTESY);
@@ -102,7 +102,7 @@ fn is_whole(answer: &str, phrases: &Phrases, behind: &Phrases) -> bool {
 /// Request inside an addition: "also bring me the apple".
 #[must_use]
 pub fn added(answer: &str) -> Option<&str> {
-    let said = Said::new(answer);
+    let said = AnswerText::new(answer);
     let rest = said.from(said.skip(0, &ADDITIONS)?).trim_start_matches([',', ' ']);
     (!rest.is_empty()).then_some(rest)
 }
@@ -110,7 +110,7 @@ pub fn added(answer: &str) -> Option<&str> {
 /// Things inside a withdrawal: "without the apple".
 #[must_use]
 pub fn withdrawn(answer: &str) -> Option<&str> {
-    let said = Said::new(answer);
+    let said = AnswerText::new(answer);
     let rest = said.from(said.skip(said.skip_all(0, &ANSWER_COURTESY), &WITHDRAWALS)?);
     let rest = rest.trim_start_matches([',', ' ']).trim_end_matches(['.', '!', ' ']);
     (!rest.is_empty()).then_some(rest)
@@ -119,7 +119,7 @@ pub fn withdrawn(answer: &str) -> Option<&str> {
 /// True if a text has no word.
 #[must_use]
 pub fn is_wordless(text: &str) -> bool {
-    Said::new(text).is_end(0)
+    AnswerText::new(text).is_end(0)
 }
 
 /// True if a text says somewhere that something cannot or will not be done.
@@ -140,14 +140,14 @@ fn has(text: &str, phrases: &Phrases) -> bool {
 }
 
 /// Words of an answer, without the marks between them.
-struct Said<'a> {
+struct AnswerText<'a> {
     text: &'a str,
     words: Vec<Token>,
     /// Offset in bytes behind each word.
     ends: Vec<usize>,
 }
 
-impl<'a> Said<'a> {
+impl<'a> AnswerText<'a> {
     fn new(text: &'a str) -> Self {
         let (words, ends) = pieces(text).into_iter().filter(|(token, _)| !token.word().is_empty()).unzip();
         Self { text, words, ends }

@@ -16,7 +16,7 @@ use crate::engine::token::{Token, stands};
 use crate::engine::vocabulary::{Role, good_for};
 use crate::meaning::{ANYWHERE, OBJECTS, Reader};
 use crate::parse::{Spoken, Statement};
-use crate::{Asked, ReportedLocation};
+use crate::{PendingQuestion, ReportedLocation};
 
 impl Reader<'_> {
     /// Takes in what was said beside the request: what was mentioned, liked, left somewhere, and where things
@@ -151,7 +151,7 @@ pub(super) enum Clause {
 impl Reader<'_> {
     /// Reads what an answer says of where things are. Of the same thing more than one place is where to look
     /// first, then next.
-    pub(super) fn told(&mut self, tokens: &[Token], asked: Asked) -> Vec<ReportedLocation> {
+    pub(super) fn told(&mut self, tokens: &[Token], asked: PendingQuestion) -> Vec<ReportedLocation> {
         let mut told = Vec::new();
         for sentence in tokens.split(|token| *token == Token::Stop) {
             let mut here = Vec::new();
@@ -224,10 +224,10 @@ impl Reader<'_> {
 }
 
 /// An answer that says where to take the thing from, or where to look, as one that says where it is.
-fn guided(clause: &[Token], asked: Asked) -> Vec<Token> {
+fn guided(clause: &[Token], asked: PendingQuestion) -> Vec<Token> {
     let begin = leading(clause, 0, Clause::Answer);
     let found = Rules("guidance").at(clause, 0).or_else(|| Rules("guidance").at(clause, begin));
-    let search = || Rules("guided_search").at(clause, begin).filter(|_| asked == Asked::Where);
+    let search = || Rules("guided_search").at(clause, begin).filter(|_| asked == PendingQuestion::Where);
     match found.or_else(search) {
         Some(found) => [&found.words, clause.get(found.end..).unwrap_or_default()].concat(),
         None => clause.to_vec(),

@@ -348,7 +348,7 @@ mod tests {
     }
 
     #[test]
-    fn a_message_comes_back() {
+    fn message_comes_back() {
         let layouts = layouts();
         let value = json!({"header": {"frame_id": "map", "stamp": {"sec": -3, "nanosec": 5}},
             "name": ["a", "bcd"], "position": [0.1, -2.5], "velocity": [], "effort": [1e-9]});
@@ -377,7 +377,7 @@ mod tests {
     }
 
     #[test]
-    fn a_length_beyond_the_message_is_an_error() {
+    fn length_beyond_the_message_is_an_error() {
         let wrong = decode(&layouts(), "tf2_msgs/TFMessage", &[255, 255, 255, 255, 0]).unwrap_err();
         assert_eq!(wrong, "`transforms` has 4294967295 elements, more than the message can have");
     }

@@ -73,7 +73,7 @@ mod tests {
     }
 
     #[test]
-    fn a_message_is_late_by_its_stamp_whatever_the_clock_says() {
+    fn message_is_late_by_its_stamp_whatever_the_clock_says() {
         let now = 2e9;
         assert_eq!(delays(&[(now, 0), (now + 1.0, 1000), (now + 0.5, 2000), (0.0, 2000)]), [0, 0, 1500, 0]);
         // A delay that grows is one, although the messages come steadily.
@@ -81,13 +81,13 @@ mod tests {
     }
 
     #[test]
-    fn a_slow_simulation_is_not_late() {
+    fn slow_simulation_is_not_late() {
         let messages: Vec<(f64, u64)> = (0..100).map(|at: u64| (1.0 + 0.05 * at as f64, 100 * at)).collect();
         assert!(delays(&messages).into_iter().all(|late| late <= 300), "{:?}", delays(&messages));
     }
 
     #[test]
-    fn a_clock_that_was_set_back_is_believed_in_the_end() {
+    fn clock_that_was_set_back_is_believed_in_the_end() {
         let messages: Vec<(f64, u64)> = (0..200).map(|at: u64| (2e9 + at as f64, 1000 * at)).collect();
         let back = messages.iter().map(|(stamp, millis)| (stamp + 198.0, millis + 200_000));
         let all: Vec<(f64, u64)> = messages.iter().copied().chain(back).collect();

@@ -332,7 +332,7 @@ mod tests {
     }
 
     #[test]
-    fn a_path_that_is_none_is_refused() {
+    fn path_that_is_none_is_refused() {
         let wrong = |change: &dyn Fn(&mut Witness)| {
             let mut changed = witness();
             change(&mut changed);
@@ -354,7 +354,7 @@ mod tests {
     }
 
     #[test]
-    fn a_path_is_split_where_base_and_joints_take_turns() {
+    fn path_is_split_where_base_and_joints_take_turns() {
         let part = Part::of(&witness()).unwrap();
         let phases = part.phases().unwrap();
         assert_eq!(phases.iter().map(|(drives, _)| *drives).collect::<Vec<_>>(), [false, true]);
@@ -366,7 +366,7 @@ mod tests {
     }
 
     #[test]
-    fn the_base_is_given_in_the_frame_of_its_controller() {
+    fn base_is_given_in_the_frame_of_its_controller() {
         let odom = Planar { x: 1.0, y: 0.0, yaw: std::f64::consts::FRAC_PI_2 };
         let axes = [Axis::Base(0), Axis::Base(1), Axis::Base(2)];
         let names = ["x", "y", "t"].map(str::to_owned);

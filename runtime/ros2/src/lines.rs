@@ -126,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn a_host_that_closes_or_does_not_read_is_told() {
+    fn host_that_closes_or_does_not_read_is_told() {
         let output = Output::open(Page(Arc::default(), true));
         output.write("one".to_owned()).unwrap();
         while output.write("more".to_owned()).is_ok() {

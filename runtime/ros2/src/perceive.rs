@@ -344,7 +344,7 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_has_depth_and_a_camera_in_the_map() {
+    fn picture_has_depth_and_a_camera_in_the_map() {
         let binding = Binding::parse(BINDING, "own").unwrap();
         let mut feed = CameraFeed::default();
         feed.hear(Feed::Image, image("bgr8", 6, &[1, 2, 3, 4, 5, 6]), Instant::now());
@@ -381,7 +381,7 @@ mod tests {
     }
 
     #[test]
-    fn a_box_in_a_picture_has_its_place_by_the_depth_within() {
+    fn box_in_a_picture_has_its_place_by_the_depth_within() {
         let text = BINDING.replace("topic = \"t\"", "topic = \"t\", camera = \"head\"");
         let binding = Binding::parse(&text, "own").unwrap();
         // A wall at 3 m, and before it a thing of 20 × 20 pixels at 2 m.

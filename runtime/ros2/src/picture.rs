@@ -215,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn a_jpeg_picture_has_its_pixels() {
+    fn jpeg_picture_has_its_pixels() {
         let file = STANDARD.decode(JPEG).unwrap();
         let picture = read(&file).unwrap();
         assert_eq!((picture.width, picture.height), (16, 8));
@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn a_png_picture_has_its_pixels() {
+    fn png_picture_has_its_pixels() {
         let picture = Picture { width: 2, height: 1, rgb: vec![1, 2, 3, 4, 5, 6] };
         assert_eq!(read(&picture.png().unwrap()).unwrap(), picture);
         let mut file = Vec::new();

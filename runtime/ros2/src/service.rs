@@ -285,12 +285,12 @@ mod tests {
     }
 
     #[test]
-    fn a_response_finds_its_call_as_fast_dds_writes_it() {
+    fn response_finds_its_call_as_fast_dds_writes_it() {
         calls(Middleware::Fastdds, 71);
     }
 
     #[test]
-    fn a_response_finds_its_call_as_cyclone_dds_writes_it() {
+    fn response_finds_its_call_as_cyclone_dds_writes_it() {
         calls(Middleware::Cyclonedds, 72);
     }
 }

@@ -235,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn a_state_that_comes_late_is_old_however_steadily_it_comes() {
+    fn state_that_comes_late_is_old_however_steadily_it_comes() {
         let layouts = Layouts::of(Distribution::Jazzy, None).unwrap();
         let (mut body, now) = (Body::default(), Instant::now());
         let message = |name: &str, value: &serde_json::Value| {

@@ -287,7 +287,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pose_is_looked_up_at_its_time() {
+    fn pose_is_looked_up_at_its_time() {
         let mut frames = Frames::default();
         told(&mut frames, "map", "odom", 10, 1.0, 0.0, true);
         told(&mut frames, "odom", "base", 10, 0.0, 0.0, false);

@@ -34,7 +34,7 @@ fn line(policy: &Policy, grammar: &Grammar) -> String {
 }
 
 #[test]
-fn an_example_means_the_same_in_both_canonical_forms() {
+fn example_means_the_same_in_both_canonical_forms() {
     for (path, robot, scene) in examples() {
         let (robot, scene) = (setup::robot(&robot), setup::scene(&scene));
         let (session, _) = setup::session(Some(&robot), Some(&scene), &mut Sources::default());

@@ -15,12 +15,12 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// A robot in a room.
-struct Stage {
+struct RobotInRoom {
     robot: Robot,
     scene: Scene,
 }
 
-impl Stage {
+impl RobotInRoom {
     fn new(scene: &str) -> Self {
         Self { robot: setup::robot("hsr"), scene: setup::scene(scene) }
     }
@@ -52,7 +52,7 @@ impl Stage {
 
 /// Writes down what happens, and swaps once.
 struct Script<'s> {
-    stage: &'s Stage,
+    stage: &'s RobotInRoom,
     swap: Option<(Time, &'static str)>,
     log: Vec<String>,
 }
@@ -95,7 +95,7 @@ impl Observer for Script<'_> {
 
 /// Runs an example with these faults. Returns the world and what happened, the end last.
 fn play(scene: &str, name: &str, faults: &str, swap: Option<(f64, &'static str)>) -> (Sim, Vec<String>) {
-    let stage = Stage::new(scene);
+    let stage = RobotInRoom::new(scene);
     let options = motet_sim::SimOptions {
         faults: Faults::from_json(faults).unwrap(),
         ..motet_sim::SimOptions::default()

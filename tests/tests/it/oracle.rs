@@ -11,7 +11,7 @@ use rand_xoshiro::rand_core::SeedableRng as _;
 
 /// What the prover says of a policy.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum Said {
+enum ProverVerdict {
     Accepted,
     Deferred,
     Refuted,
@@ -39,23 +39,27 @@ impl Lab {
         Self { domain, session, sources }
     }
 
-    fn ask(&mut self, policy: &Policy) -> Said {
+    fn ask(&mut self, policy: &Policy) -> ProverVerdict {
         let source = Source::new("policy.motet", oracle::policy_text(&self.domain, policy));
         let id = self.sources.add(source.clone());
         let compiled = self.session.compile(&motet_syntax::read(&source, id), None);
         let errors = || compiled.diagnostics.iter().filter(|said| said.severity == Severity::Error);
         if errors().any(|said| said.code.0 != "M0501") {
-            return Said::Other;
+            return ProverVerdict::Other;
         }
         let Some(graph) = compiled.graph.as_ref().filter(|_| errors().next().is_none()) else {
-            return Said::Refuted;
+            return ProverVerdict::Refuted;
         };
         let calls = graph.nodes.iter().filter_map(|node| match &node.kind {
             NodeKind::Call(call) => Some(call),
             _ => None,
         });
         let mut needs = calls.flat_map(|call| &call.needs);
-        if needs.any(|need| need.verdict == Verdict::Deferred) { Said::Deferred } else { Said::Accepted }
+        if needs.any(|need| need.verdict == Verdict::Deferred) {
+            ProverVerdict::Deferred
+        } else {
+            ProverVerdict::Accepted
+        }
     }
 
     fn show(&self, policy: &Policy) -> String {
@@ -78,18 +82,18 @@ struct Count {
 fn judge(lab: &mut Lab, policy: &Policy, count: &mut Count) -> Result<(), String> {
     let found = oracle::walk(&lab.domain, policy);
     let said = lab.ask(policy);
-    if found.gave_up || said == Said::Other {
+    if found.gave_up || said == ProverVerdict::Other {
         return Ok(());
     }
     count.total += 1;
     match said {
-        Said::Accepted => {
+        ProverVerdict::Accepted => {
             count.accepted += 1;
             if found.violated || found.contended || found.unobserved {
                 return Err(format!("accepted, but {found:?}:\n{}", lab.show(policy)));
             }
         }
-        Said::Deferred => {
+        ProverVerdict::Deferred => {
             count.deferred += 1;
             // What another branch may change is unknown by the word of the language.
             let contended = policy.iter().any(Step::is_parallel);
@@ -98,11 +102,11 @@ fn judge(lab: &mut Lab, policy: &Policy, count: &mut Count) -> Result<(), String
             }
             count.deferred_in_vain += usize::from(!found.unobserved && !contended);
         }
-        Said::Refuted => {
+        ProverVerdict::Refuted => {
             count.refuted += 1;
             count.refuted_in_vain += usize::from(!found.violated && !found.contended);
         }
-        Said::Other => {}
+        ProverVerdict::Other => {}
     }
     Ok(())
 }

@@ -8,7 +8,7 @@ use motet_sim::{Faults, Sim, SimOptions};
 use motet_syntax::{FileId, Source, Sources, Syntax, print, read};
 use motet_tests::setup;
 
-use crate::values::Said;
+use crate::values::Transcript;
 
 fn session() -> Session {
     let (robot, scene) = (setup::robot("hsr"), setup::scene("kitchen"));
@@ -26,7 +26,7 @@ fn play(document: &str, faults: &str) -> (RunEnd, Vec<String>) {
     let faults = Faults::from_json(faults).unwrap();
     let mut sim = Sim::new(&robot, &scene, SimOptions { faults, ..SimOptions::default() });
     let mut engine = Engine::new(graph, &StartState::default()).unwrap();
-    let mut said = Said::default();
+    let mut said = Transcript::default();
     let end = run(&mut engine, &mut sim, &mut said, Time::ZERO);
     (end, said.0)
 }

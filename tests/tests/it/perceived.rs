@@ -151,9 +151,9 @@ fn perception_thing_that_nobody_saw_is_looked_for() {
 }
 
 /// Keeps what a model would be shown, and plans without one.
-struct Shown(Vec<(String, String)>);
+struct PromptCapture(Vec<(String, String)>);
 
-impl Planner for Shown {
+impl Planner for PromptCapture {
     fn plan(&mut self, ask: &PlanRequest<'_>) -> Result<PlannedRequest, PlanError> {
         let scene = ask.situation.scene;
         let prompt = Prompt {
@@ -182,7 +182,7 @@ fn perception_is_in_the_prompt_and_in_the_dialect() {
     let mut sim = Sim::new(&robot, &scene, options);
     let options = CheckOptions::default();
     let setting = DialogueSetup { robot, scene, domains: Vec::new(), geometry: None, options };
-    let (mut planner, mut person) = (Shown(Vec::new()), Beside::default());
+    let (mut planner, mut person) = (PromptCapture(Vec::new()), Beside::default());
     let mut conversation = Conversation::new(&setting);
     conversation.carry_out("bring me the stapler", &mut planner, &mut sim, &mut person, &mut (), Time::ZERO);
     let (prompt, vision) = &planner.0[0];

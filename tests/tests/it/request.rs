@@ -1,6 +1,6 @@
 //! Requests in words and what they are taken to mean, in scenes that come with the robots.
 
-use motet_requests::{Asked, RequestContext, RequestError};
+use motet_requests::{PendingQuestion, RequestContext, RequestError};
 use motet_syntax::print;
 use motet_tests::setup;
 
@@ -307,7 +307,7 @@ fn request_what_is_known_and_does_not_fit_is_not_unknown() {
 fn tells(answer: &str, places: &[&str]) {
     let scene = setup::scene("kitchen");
     let situation = RequestContext { spoken_of: vec!["coke".into()], ..RequestContext::new(&scene) };
-    let told = motet_requests::told(answer, Asked::Where, &situation);
+    let told = motet_requests::told(answer, PendingQuestion::Where, &situation);
     let found: Vec<_> =
         told.iter().map(|one| format!("{}({}, {})", one.relation, one.thing, one.place)).collect();
     assert_eq!(found, places, "{answer}");

@@ -29,9 +29,9 @@ const JSON: &str = r#"{
 
 /// Listener to a run: the words that the robot says, in order.
 #[derive(Default)]
-pub(crate) struct Said(pub(crate) Vec<String>);
+pub(crate) struct Transcript(pub(crate) Vec<String>);
 
-impl Observer for Said {
+impl Observer for Transcript {
     fn effect(&mut self, _now: Time, effect: &Effect) {
         if let Effect::Start { command, .. } = effect
             && let ("say", Some(motet_graph::Value::Text(text))) = (&*command.primitive, command.arg("text"))
@@ -65,7 +65,7 @@ fn values_are_said_as_people_do() {
     let graph = motet_graph::decode(&motet_graph::encode(&graph)).unwrap();
     let mut sim = Sim::new(&robot, &scene, SimOptions::default());
     let mut engine = Engine::new(graph, &StartState::default()).unwrap();
-    let mut said = Said::default();
+    let mut said = Transcript::default();
     run(&mut engine, &mut sim, &mut said, Time::ZERO);
     insta::assert_snapshot!(said.0.join("\n"));
 }

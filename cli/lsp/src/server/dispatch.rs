@@ -9,7 +9,7 @@ use serde_json::Value;
 use super::answers::{self, Answers};
 use super::client::{Client, RequestError, read, written};
 use super::pending::guarded;
-use super::{ClientFeatures, Server, Stage};
+use super::{ClientFeatures, Lifecycle, Server};
 use crate::checker::Snapshot;
 use crate::commands::{self, CommandResult};
 use crate::convert;
@@ -46,15 +46,17 @@ impl Server {
     /// Refusal of a request that has no place at this stage of the session.
     fn out_of_order(&self, method: &str) -> Option<RequestError> {
         let (code, problem) = match (self.stage, method) {
-            (Stage::Uninitialized, lsp::Initialize::METHOD) => return None,
-            (Stage::Uninitialized, _) => {
+            (Lifecycle::Uninitialized, lsp::Initialize::METHOD) => return None,
+            (Lifecycle::Uninitialized, _) => {
                 (ErrorCode::ServerNotInitialized, format!("`{method}` comes before `initialize`"))
             }
-            (Stage::Running | Stage::ShutDown, lsp::Initialize::METHOD) => {
+            (Lifecycle::Running | Lifecycle::ShutDown, lsp::Initialize::METHOD) => {
                 (ErrorCode::InvalidRequest, "the server is initialized".to_owned())
             }
-            (Stage::Running, _) => return None,
-            (Stage::ShutDown, _) => (ErrorCode::InvalidRequest, format!("`{method}` comes after `shutdown`")),
+            (Lifecycle::Running, _) => return None,
+            (Lifecycle::ShutDown, _) => {
+                (ErrorCode::InvalidRequest, format!("`{method}` comes after `shutdown`"))
+            }
         };
         Some(RequestError::new(code, problem))
     }
@@ -71,7 +73,7 @@ impl Server {
             watches_files: files.and_then(|files| files.dynamic_registration).unwrap_or(false),
             refreshes_hints: hints.and_then(|hints| hints.refresh_support).unwrap_or(false),
         };
-        self.stage = Stage::Running;
+        self.stage = Lifecycle::Running;
         written(lsp::InitializeResult {
             capabilities: lsp::capabilities(),
             server_info: Some(lsp::ServerInfo {
@@ -85,7 +87,7 @@ impl Server {
         match method {
             lsp::Initialize::METHOD => self.initialize(params),
             lsp::Shutdown::METHOD => {
-                self.stage = Stage::ShutDown;
+                self.stage = Lifecycle::ShutDown;
                 Ok(Value::Null)
             }
             lsp::HoverRequest::METHOD => {

@@ -90,13 +90,13 @@ pub(crate) struct Server {
     checked: BTreeMap<String, Arc<CheckedSnapshot>>,
     /// Checks without motions that wait for those with them, each until a time.
     waiting: BTreeMap<String, (Instant, Arc<CheckedSnapshot>)>,
-    stage: Stage,
+    stage: Lifecycle,
     features: ClientFeatures,
 }
 
-/// Stage of the session with the client.
+/// Lifecycle of the session with the client.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum Stage {
+enum Lifecycle {
     Uninitialized,
     Running,
     ShutDown,
@@ -124,7 +124,7 @@ impl Server {
             library,
             checked: BTreeMap::new(),
             waiting: BTreeMap::new(),
-            stage: Stage::Uninitialized,
+            stage: Lifecycle::Uninitialized,
             features: ClientFeatures::default(),
         }
     }
@@ -145,8 +145,8 @@ impl Server {
                         if note.method == protocol::Exit::METHOD =>
                     {
                         return match self.stage {
-                            Stage::ShutDown => ServerEnd::Ordered,
-                            Stage::Uninitialized | Stage::Running => ServerEnd::Abrupt,
+                            Lifecycle::ShutDown => ServerEnd::Ordered,
+                            Lifecycle::Uninitialized | Lifecycle::Running => ServerEnd::Abrupt,
                         };
                     }
                     Incoming::Message(Message::Notification(note)) => self.notification(note),
@@ -177,7 +177,7 @@ impl Server {
     fn notification(&mut self, note: Note) {
         let Note { method, params } = note;
         // Before `initialize` none counts but `exit`, as the protocol says.
-        if self.stage == Stage::Uninitialized {
+        if self.stage == Lifecycle::Uninitialized {
             return;
         }
         match method.as_str() {

@@ -74,7 +74,7 @@ fn settings_of_the_folder_are_read_again() {
 }
 
 #[test]
-fn a_closed_document_has_no_diagnostics() {
+fn closed_document_has_no_diagnostics() {
     let mut client = Client::new();
     client.open(URI, "policy p { sya(\"x\") }");
     assert_eq!(client.diagnostics(URI, 1).len(), 1);
@@ -98,7 +98,7 @@ fn only_the_newest_version_counts() {
 }
 
 #[test]
-fn a_domain_is_checked_beside_the_other_domains() {
+fn domain_is_checked_beside_the_other_domains() {
     let folder = folder("domain");
     let settings = "robot = \"hsr\"\nscene = \"kitchen\"\ngeometry = false\ndomains = [\"lamp.motet\"]\n";
     std::fs::write(folder.join("motet.toml"), settings).unwrap();

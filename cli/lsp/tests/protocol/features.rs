@@ -232,7 +232,7 @@ fn lenses_run_a_policy_and_show_its_motions() {
 }
 
 #[test]
-fn a_command_that_is_cancelled_is_answered_once() {
+fn command_that_is_cancelled_is_answered_once() {
     let mut client = opened(TEXT);
     let id = client
         .ask("workspace/executeCommand", json!({"command": "motet.feasible", "arguments": [URI, "fetch"]}));

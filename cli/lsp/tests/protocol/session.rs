@@ -52,7 +52,7 @@ fn lost_framing_ends_the_server_with_a_reason() {
 }
 
 #[test]
-fn a_client_that_leaves_ends_the_server() {
+fn client_that_leaves_ends_the_server() {
     assert_eq!(Client::new().leave().unwrap(), ServerEnd::Abrupt);
     let mut client = Client::raw();
     client.notify("exit", Value::Null);
@@ -72,7 +72,7 @@ fn what_the_server_does_not_know_does_no_harm() {
 }
 
 #[test]
-fn a_huge_document_is_refused_with_a_diagnostic() {
+fn huge_document_is_refused_with_a_diagnostic() {
     let mut client = Client::new();
     let mut text = String::from("policy p {\n");
     while text.len() <= 16 * 1024 * 1024 {

@@ -9,7 +9,7 @@ use motet_syntax::{Diagnostic, Severity, Source, Sources, render, suggest};
 use serde_json::{Value, json};
 
 use super::answer::{Refusal, first};
-use super::situation::Situation;
+use super::environment::AgentEnvironment;
 use super::text::{read, within};
 
 /// The most diagnostics of an answer.
@@ -19,7 +19,7 @@ const MAX_FIXES: usize = 100;
 
 /// Checks a policy. Returns its findings, what is left to the run, and a fixed policy where the safe fixes
 /// change it.
-pub(super) fn check(situation: &Situation, text: &str) -> Result<Value, Refusal> {
+pub(super) fn check(situation: &AgentEnvironment, text: &str) -> Result<Value, Refusal> {
     let (source, parsed) = read(text)?;
     let session = &situation.session;
     let checked = session.check_document(&parsed);
@@ -84,7 +84,7 @@ pub(super) fn explain(code: &str) -> Result<Value, Refusal> {
 
 /// Plans a policy for a request in English, or for conditions.
 pub(super) fn plan(
-    situation: &Situation,
+    situation: &AgentEnvironment,
     request: Option<&str>,
     conditions: &[String],
 ) -> Result<Value, Refusal> {
@@ -122,7 +122,7 @@ pub(super) fn plan(
 }
 
 /// Refusal of a request or a goal; with the policy that nearly is one.
-fn no_plan(situation: &Situation, why: &PlanError) -> Refusal {
+fn no_plan(situation: &AgentEnvironment, why: &PlanError) -> Refusal {
     let refusal = Refusal::new(format!("no plan: {why}"));
     match why {
         PlanError::RequestError(_) => refusal.with_help(

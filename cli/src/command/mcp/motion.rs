@@ -9,7 +9,7 @@ use motet_syntax::Sources;
 use serde_json::{Value, json};
 
 use super::answer::{Refusal, ToolAnswer};
-use super::situation::{Situation, StderrSink};
+use super::environment::{AgentEnvironment, StderrSink};
 use super::text::within;
 
 /// The most motions of a call.
@@ -20,7 +20,7 @@ const PATIENCE: Duration = Duration::from_secs(20);
 const MAX_WAYPOINTS: usize = 30;
 
 /// Decides motions; without any, all of the scene.
-pub(super) fn feasible(situation: &Situation, motions: &[String]) -> Result<ToolAnswer, Refusal> {
+pub(super) fn feasible(situation: &AgentEnvironment, motions: &[String]) -> Result<ToolAnswer, Refusal> {
     if motions.len() > MAX_MOTIONS {
         return Err(Refusal::new(format!("{} motions, at most {MAX_MOTIONS} are taken", motions.len())));
     }

@@ -17,10 +17,10 @@ use motet_runtime::{Driver, Time};
 
 use super::answer::Refusal;
 use super::checker::{Checked, Checker};
+use super::environment::{AgentEnvironment, AgentEnvironments, StderrSink};
 use super::narration;
 use super::question::Client;
 use super::run_table::{ReplySender, RunEnding, RunTable};
-use super::situation::{Situation, Situations, StderrSink};
 use super::watch::RunWatch;
 use crate::error::CliError;
 use crate::flags::{DriverArgs, EnvironmentArgs, Speed};
@@ -48,7 +48,7 @@ pub(crate) struct RobotInputs<'a> {
     pub(crate) max_duration: Option<f64>,
     /// Folder for the journals.
     pub(crate) journals: &'a Path,
-    pub(crate) situations: &'a Situations,
+    pub(crate) situations: &'a AgentEnvironments,
     pub(crate) runs: &'a Arc<RunTable>,
 }
 
@@ -99,7 +99,7 @@ pub(crate) fn serve(
 /// The driver with what is known of its world.
 struct Robot<'r, 'a> {
     inputs: &'r RobotInputs<'r>,
-    opened: &'r Situation,
+    opened: &'r AgentEnvironment,
     checker: Checker,
     talk: Conversation<'a>,
     driver: Box<dyn Driver>,
@@ -200,7 +200,7 @@ impl Robot<'_, '_> {
         let known = self.talk.known.clone();
         let given = self.opened.project.scene.clone().unwrap_or_default();
         let scene = base.and_then(|base| known.placed(&given, base)).map(|(placed, _)| placed);
-        self.inputs.situations.publish(Situation {
+        self.inputs.situations.publish(AgentEnvironment {
             project: Arc::clone(&self.opened.project),
             session: self.talk.present(base),
             scene: scene.unwrap_or_else(|| self.talk.scene()),

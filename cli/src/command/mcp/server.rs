@@ -19,10 +19,10 @@ use serde_json::Value;
 use tokio::sync::{Semaphore, oneshot};
 
 use super::answer::{Refusal, ToolAnswer};
+use super::environment::AgentEnvironments;
 use super::robot::RunOrder;
 use super::run_table::{RunRecord, RunTable, SwapOrder};
 use super::simulation::{Simulation, simulate};
-use super::situation::Situations;
 use super::task::{answer_all, input_required, task};
 use super::tool::ToolName;
 use super::{check, motion, resource, text, tool, world};
@@ -55,14 +55,14 @@ pub(crate) struct DrivenRobot {
 /// Server for one client, or for one request of a client.
 #[derive(Clone)]
 pub(crate) struct MotetServer {
-    situations: Arc<Situations>,
+    situations: Arc<AgentEnvironments>,
     robot: Option<DrivenRobot>,
     calls: Arc<Semaphore>,
 }
 
 impl MotetServer {
     /// Server without a robot, or with one.
-    pub(crate) fn new(situations: Arc<Situations>, robot: Option<DrivenRobot>) -> Self {
+    pub(crate) fn new(situations: Arc<AgentEnvironments>, robot: Option<DrivenRobot>) -> Self {
         Self { situations, robot, calls: Arc::new(Semaphore::new(MAX_CALLS)) }
     }
 
@@ -82,7 +82,7 @@ impl MotetServer {
     /// so that calls do not pile up.
     async fn compute(
         &self,
-        compute: impl FnOnce(&Situations) -> Result<ToolAnswer, Refusal> + Send + 'static,
+        compute: impl FnOnce(&AgentEnvironments) -> Result<ToolAnswer, Refusal> + Send + 'static,
     ) -> Result<ToolAnswer, Refusal> {
         let busy = || Refusal::new("other calls take all the time").with_help("call again later");
         let place = tokio::time::timeout(CALL_TIME, Arc::clone(&self.calls).acquire_owned()).await;

@@ -13,8 +13,8 @@ use serde_json::{Value, json};
 
 use super::answer::Refusal;
 use super::checker::compile;
+use super::environment::AgentEnvironment;
 use super::narration::{Line, ending, narrate};
-use super::situation::Situation;
 use super::text::{read, within};
 
 /// Time after which a simulation is stopped.
@@ -38,7 +38,7 @@ pub(super) struct Simulation<'a> {
 }
 
 /// Checks a policy and simulates it in a situation.
-pub(super) fn simulate(situation: &Situation, wanted: &Simulation<'_>) -> Result<Value, Refusal> {
+pub(super) fn simulate(situation: &AgentEnvironment, wanted: &Simulation<'_>) -> Result<Value, Refusal> {
     let robot = situation.robot()?;
     if wanted.answers.len() > MAX_ANSWERS {
         return Err(Refusal::new(format!("at most {MAX_ANSWERS} answers are taken")));

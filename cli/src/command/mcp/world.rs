@@ -7,11 +7,11 @@ use motet_syntax::Sources;
 use serde_json::{Map, Value, json};
 
 use super::answer::Refusal;
-use super::situation::{Situation, StderrSink, scene_names};
+use super::environment::{AgentEnvironment, StderrSink, scene_names};
 use crate::command::robots::{signature, signatures};
 
 /// The built-in robots and scenes, and the robot of the command line.
-pub(super) fn robots(own: &Situation, drives: bool) -> Result<Value, Refusal> {
+pub(super) fn robots(own: &AgentEnvironment, drives: bool) -> Result<Value, Refusal> {
     let mut robots = Vec::new();
     for name in robot_names() {
         let robot = RobotFiles::find(name)?.card(&mut Sources::default(), &mut StderrSink)?;
@@ -27,7 +27,7 @@ pub(super) fn robots(own: &Situation, drives: bool) -> Result<Value, Refusal> {
 }
 
 /// Declarations of the primitives of a robot, with its bounds.
-pub(super) fn primitives(situation: &Situation, name: Option<&str>) -> Result<Value, Refusal> {
+pub(super) fn primitives(situation: &AgentEnvironment, name: Option<&str>) -> Result<Value, Refusal> {
     let robot = situation.robot()?;
     let declared = signatures(robot);
     let mut found = Map::new();
@@ -49,7 +49,7 @@ pub(super) fn primitives(situation: &Situation, name: Option<&str>) -> Result<Va
 }
 
 /// Entities and facts at present.
-pub(super) fn scene(situation: &Situation) -> Value {
+pub(super) fn scene(situation: &AgentEnvironment) -> Value {
     let scene = &situation.scene;
     let entities: Vec<Value> = scene.entities.values().map(entity).collect();
     json!({
@@ -62,7 +62,7 @@ pub(super) fn scene(situation: &Situation) -> Value {
 }
 
 /// Facts that hold, and those about one thing that are known not to hold.
-fn facts(situation: &Situation) -> Vec<String> {
+fn facts(situation: &AgentEnvironment) -> Vec<String> {
     let mut known: Vec<InitialFact> = Vec::new();
     for fact in situation.session.initial_facts() {
         let is_about = |other: &InitialFact| {

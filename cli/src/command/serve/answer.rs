@@ -8,13 +8,13 @@ use serde_json::{Value, json};
 /// Reply to a client.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Reply {
-    pub(super) said: Said,
+    pub(super) said: ReplyContent,
     pub(super) usage: TokenUsage,
 }
 
 /// Content of a reply.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(super) enum Said {
+pub(super) enum ReplyContent {
     /// A policy that checks.
     Policy(String),
     /// A question or a refusal of the model, in words.
@@ -132,8 +132,8 @@ impl Head {
     /// A whole answer.
     pub(super) fn completion(&self, reply: &Reply) -> Value {
         let message = match &reply.said {
-            Said::Policy(policy) => json!({"role": "assistant", "content": policy, "refusal": null}),
-            Said::Words(words) => json!({"role": "assistant", "content": null, "refusal": words}),
+            ReplyContent::Policy(policy) => json!({"role": "assistant", "content": policy, "refusal": null}),
+            ReplyContent::Words(words) => json!({"role": "assistant", "content": null, "refusal": words}),
         };
         let choice = json!({"index": 0, "message": message, "logprobs": null, "finish_reason": "stop"});
         let mut all = self.object("chat.completion", json!([choice]));
@@ -151,8 +151,8 @@ impl Head {
     /// Events of a reply, without the first one.
     pub(super) fn chunks(&self, reply: &Reply) -> [Value; 2] {
         let delta = match &reply.said {
-            Said::Policy(policy) => json!({"content": policy}),
-            Said::Words(words) => json!({"refusal": words}),
+            ReplyContent::Policy(policy) => json!({"content": policy}),
+            ReplyContent::Words(words) => json!({"refusal": words}),
         };
         [self.chunk(&delta, None), self.chunk(&json!({}), Some("stop"))]
     }

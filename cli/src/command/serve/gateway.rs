@@ -17,7 +17,7 @@ use motet_runtime::memory::{Memory, MemoryLimits};
 use motet_syntax::{Diagnostic, Source, Sources, Syntax, render};
 use serde_json::Value;
 
-use super::answer::{ApiError, ErrorKind, Reply, Said};
+use super::answer::{ApiError, ErrorKind, Reply, ReplyContent};
 use super::request::ChatRequest;
 use crate::interrupt::is_interrupted;
 
@@ -99,9 +99,9 @@ impl Gateway {
                 let written = motet::document::write(&answered.planned.parsed, None, library, self.syntax);
                 let wrong =
                     |why| ApiError::new(ErrorKind::NoPolicy, format!("the reply is no single policy: {why}"));
-                Said::Policy(written.map_err(wrong)?)
+                ReplyContent::Policy(written.map_err(wrong)?)
             }
-            Err(PlanError::Said { words }) => Said::Words(words),
+            Err(PlanError::Said { words }) => ReplyContent::Words(words),
             Err(PlanError::Refused { text, diagnostics }) => return Err(refused(&text, &diagnostics)),
             // It checks, but is not what was asked or what was written, and nobody is there to decide.
             Err(PlanError::Doubtful { planned, diagnostics }) => {

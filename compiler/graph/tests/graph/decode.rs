@@ -43,13 +43,13 @@ fn forms() {
 }
 
 #[test]
-fn the_hash_stands_in_the_document() {
+fn hash_stands_in_the_document() {
     let graph = graph(&[StepSketch::go("table")]);
     assert!(encode(&graph).starts_with(&format!("{{\"motet_graph\":6,\"hash\":\"{}\",", hash(&graph))));
 }
 
 #[test]
-fn the_deepest_graph_can_be_written_read_and_drawn() {
+fn deepest_graph_can_be_written_read_and_drawn() {
     let deep = (0..1_024).fold(StepSketch::say("a"), |inner, _| StepSketch::Sequence(vec![inner]));
     let graph = graph(&[deep]);
     assert_eq!(decode(&encode(&graph)).unwrap(), graph);

@@ -9,7 +9,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(256))]
 
     #[test]
-    fn a_sketched_graph_is_valid(graph in graphs()) {
+    fn sketched_graph_is_valid(graph in graphs()) {
         prop_assert_eq!(validate(&graph), Ok(()));
     }
 
@@ -44,7 +44,7 @@ proptest! {
     }
 
     #[test]
-    fn a_changed_document_is_refused(
+    fn changed_document_is_refused(
         graph in graphs(),
         at in any::<prop::sample::Index>(),
         byte in b' '..b'~',

@@ -61,7 +61,7 @@ fn wait(condition: Condition) -> NodeKind {
 }
 
 #[test]
-fn a_sound_graph_is_valid() {
+fn sound_graph_is_valid() {
     assert_eq!(validate(&sound()), Ok(()));
 }
 
@@ -422,7 +422,7 @@ fn resources() {
 }
 
 #[test]
-fn a_hundred_findings_are_enough() {
+fn hundred_findings_are_enough() {
     let mut graph = graph(&vec![StepSketch::go("table"); 500]);
     for node in &mut graph.nodes {
         node.duration.least_secs = -1.0;

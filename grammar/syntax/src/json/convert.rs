@@ -143,10 +143,10 @@ impl Converter {
 
     fn keeps(&mut self, keeps: wire::Keeps, depth: usize) -> Vec<Keep> {
         let keeps = keeps.value.into_iter().filter_map(|Lenient(kept)| kept);
-        let one = |Spanned { value, span }: Spanned<wire::Kept>| {
+        let one = |Spanned { value, span }: Spanned<wire::KeepRule>| {
             let kind = match value {
-                wire::Kept::OutOf(kept) => KeepKind::OutOf(self.term(kept.out_of, depth + 1)),
-                wire::Kept::Distance(kept) => KeepKind::Distance {
+                wire::KeepRule::OutOf(kept) => KeepKind::OutOf(self.term(kept.out_of, depth + 1)),
+                wire::KeepRule::Distance(kept) => KeepKind::Distance {
                     to: self.term(kept.distance, depth + 1),
                     at_least: self.length(kept.at_least, depth),
                 },

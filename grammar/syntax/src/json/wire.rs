@@ -308,13 +308,13 @@ pub(crate) struct Keep {
 }
 
 /// Rules of where the robot may not go.
-pub(crate) type Keeps = Spanned<Vec<Lenient<Spanned<Kept>>>>;
+pub(crate) type Keeps = Spanned<Vec<Lenient<Spanned<KeepRule>>>>;
 
 /// Rule of where the robot may not go; its first key names the form.
 #[derive(Clone, PartialEq, Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[schemars(rename = "Rule", untagged)]
-pub(crate) enum Kept {
+pub(crate) enum KeepRule {
     /// A zone that nothing of the robot enters.
     OutOf(OutOf),
     /// A least distance.
@@ -406,7 +406,7 @@ impl Serialize for Step {
     }
 }
 
-impl Serialize for Kept {
+impl Serialize for KeepRule {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {
             Self::OutOf(kept) => kept.serialize(serializer),

@@ -183,8 +183,8 @@ impl WireTranslation {
 
     fn keeps(&mut self, keeps: &[Keep]) -> wire::Keeps {
         let one = |keep: &Keep| match &keep.kind {
-            KeepKind::OutOf(zone) => wire::Kept::OutOf(wire::OutOf { out_of: self.term(zone).into() }),
-            KeepKind::Distance { to, at_least } => wire::Kept::Distance(wire::KeptDistance {
+            KeepKind::OutOf(zone) => wire::KeepRule::OutOf(wire::OutOf { out_of: self.term(zone).into() }),
+            KeepKind::Distance { to, at_least } => wire::KeepRule::Distance(wire::KeptDistance {
                 distance: self.term(to).into(),
                 at_least: self.term(at_least).into(),
             }),

@@ -21,11 +21,11 @@ pub fn llm(diagnostics: &[Diagnostic], sources: &Sources) -> String {
     let mut order: Vec<&Diagnostic> = diagnostics.iter().collect();
     order.sort_by_key(|said| (std::cmp::Reverse(said.severity), rank(said), said.span));
     let mut text = String::new();
-    let mut told: IndexMap<Said<'_>, IndexSet<Place>> = IndexMap::new();
+    let mut told: IndexMap<FindingKey<'_>, IndexSet<DocumentPlace>> = IndexMap::new();
     for said in order {
         let advice = said.fix.as_ref().map(|fix| &fix.title).or(said.help.as_ref());
         let place = place_of(&said.path).or_else(|| line_of(said, sources));
-        let kind = place.as_ref().map(Place::kind);
+        let kind = place.as_ref().map(DocumentPlace::kind);
         let key = (said.severity, said.message.as_str(), advice.map(String::as_str), kind);
         let places = told.entry(key).or_default();
         places.extend(place);
@@ -41,11 +41,11 @@ pub fn llm(diagnostics: &[Diagnostic], sources: &Sources) -> String {
 }
 
 /// Severity, message and advice of a finding, and the kind of its place.
-type Said<'d> = (Severity, &'d str, Option<&'d str>, Option<&'d str>);
+type FindingKey<'d> = (Severity, &'d str, Option<&'d str>, Option<&'d str>);
 
-/// Place of a finding in a document.
+/// DocumentPlace of a finding in a document.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
-enum Place {
+enum DocumentPlace {
     /// A step, such as `2.then.1`, or `finally.1` in the cleanup of the policy.
     Step(String),
     /// A rule of the policy, such as `keep.1`.
@@ -54,7 +54,7 @@ enum Place {
     Line(usize),
 }
 
-impl Place {
+impl DocumentPlace {
     fn kind(&self) -> &'static str {
         match self {
             Self::Step(_) => "Step",
@@ -64,7 +64,7 @@ impl Place {
     }
 }
 
-impl std::fmt::Display for Place {
+impl std::fmt::Display for DocumentPlace {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Step(label) | Self::Rule(label) => f.write_str(label),
@@ -74,15 +74,15 @@ impl std::fmt::Display for Place {
 }
 
 /// Step or rule that a path leads to.
-fn place_of(path: &str) -> Option<Place> {
+fn place_of(path: &str) -> Option<DocumentPlace> {
     let label = step_label(path)?;
-    Some(if label.starts_with(KEEP) { Place::Rule(label) } else { Place::Step(label) })
+    Some(if label.starts_with(KEEP) { DocumentPlace::Rule(label) } else { DocumentPlace::Step(label) })
 }
 
 /// Line of a mistake in the syntax, which belongs to no step.
-fn line_of(said: &Diagnostic, sources: &Sources) -> Option<Place> {
+fn line_of(said: &Diagnostic, sources: &Sources) -> Option<DocumentPlace> {
     let source = sources.get(said.span.file).filter(|_| said.code.0.starts_with("M01"))?;
-    Some(Place::Line(source.line_column(said.span.start).0))
+    Some(DocumentPlace::Line(source.line_column(said.span.start).0))
 }
 
 /// Rank of a diagnostic: the document as a whole first, then its steps, then its goal.
@@ -102,7 +102,13 @@ const MAX_LINES: usize = 50;
 /// The most steps that one finding names.
 const MAX_PLACES: usize = 5;
 
-fn line(text: &mut String, severity: Severity, message: &str, advice: Option<&str>, places: &[Place]) {
+fn line(
+    text: &mut String,
+    severity: Severity,
+    message: &str,
+    advice: Option<&str>,
+    places: &[DocumentPlace],
+) {
     let kind = match severity {
         Severity::Error => "",
         Severity::Warning => "Warning: ",
@@ -126,13 +132,14 @@ fn line(text: &mut String, severity: Severity, message: &str, advice: Option<&st
 }
 
 /// `Step 2`, `Steps 2, 4.then.1 and 5`; `None` without a place.
-fn place(places: &[Place]) -> Option<String> {
+fn place(places: &[DocumentPlace]) -> Option<String> {
     let (last, rest) = places.split_last()?;
     let kind = last.kind();
     if rest.is_empty() {
         return Some(format!("{kind} {last}"));
     }
-    let joined = |places: &[Place]| places.iter().map(Place::to_string).collect::<Vec<_>>().join(", ");
+    let joined =
+        |places: &[DocumentPlace]| places.iter().map(DocumentPlace::to_string).collect::<Vec<_>>().join(", ");
     Some(match (places.get(..MAX_PLACES), places.len().saturating_sub(MAX_PLACES)) {
         (Some(first), more @ 1..) => format!("{kind}s {} and {more} more", joined(first)),
         _ => format!("{kind}s {} and {last}", joined(rest)),

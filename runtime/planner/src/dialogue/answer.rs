@@ -1,7 +1,7 @@
 //! Meaning of an answer to a question, for the task at hand.
 
 use motet_requests::{
-    Aim, Asked, Polarity, ReportedLocation, RequestContext, RequestError, is_wordless, polarity,
+    Aim, PendingQuestion, Polarity, ReportedLocation, RequestContext, RequestError, is_wordless, polarity,
 };
 use motet_robots::scene::Entity;
 use motet_stdlib::lang::{entities, fluents, kinds};
@@ -141,8 +141,8 @@ fn is_of_object(problem: &Problem, situation: &RequestContext<'_>) -> bool {
 }
 
 /// Meaning of the question behind a problem.
-fn asked(problem: &Problem) -> Asked {
-    if problem.kind == Kind::NotFound { Asked::Where } else { Asked::What }
+fn asked(problem: &Problem) -> PendingQuestion {
+    if problem.kind == Kind::NotFound { PendingQuestion::Where } else { PendingQuestion::What }
 }
 
 /// Names of the problem's subject, as antecedents of `it`.

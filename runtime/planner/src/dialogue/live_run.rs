@@ -17,8 +17,8 @@ use motet_runtime::{
 use motet_stdlib::lang::{failures, primitives};
 use smol_str::SmolStr;
 
-use super::aside::{self, LineMeaning, LineReading, LineRequest, PolicyCheck};
 use super::early_start::EarlyStart;
+use super::interjection::{self, LineMeaning, LineReading, LineRequest, PolicyCheck};
 use super::problem::named_entity;
 use super::{Conversation, DialogueObserver, OnInstruction, Problem};
 use crate::beside::{WorkBeside, WorkProgress};
@@ -436,7 +436,7 @@ impl Observer for LiveRun<'_, '_> {
             && let Some((_, question)) = self.asked.take_if(|(asked, _)| asked == goal)
         {
             let answer = (question, said.to_string());
-            self.answers.push_back(aside::answer(self.talk, answer, self.watcher.verifies()));
+            self.answers.push_back(interjection::answer(self.talk, answer, self.watcher.verifies()));
             self.hear_answers();
         }
     }

@@ -6,9 +6,9 @@
 //! and a [`Driver`](motet_runtime::Driver). [`Knowledge`] lasts from one policy to the next.
 
 mod answer;
-mod aside;
 mod conversation;
 mod early_start;
+mod interjection;
 mod knowledge;
 mod live_run;
 mod manager;

@@ -456,8 +456,8 @@ impl Writer<'_> {
         self.push(format!("{words} {joined}"));
     }
 
-    /// Adds an action. A list has no quotes: what would read as several actions, or as a part of the next one,
-    /// is left out.
+    /// Adds an action. A list has no quotes: what would read as several actions, or as a part of the next
+    /// one, is left out.
     fn push(&mut self, action: String) {
         let words = action.split_whitespace().collect::<Vec<_>>().join(" ");
         let read = items(&format!("{words}, {END}"), self.scene);

@@ -341,9 +341,9 @@ fn take_conditions(steps: &mut Block, from: Block) {
 fn searching_example(session: &Session, robot: &Robot, scene: &Scene) -> Option<String> {
     let what = UNLISTED.into_iter().find(|what| !session.describes(what))?;
     // A name with a quote would go on as the policy of the example.
-    let is_plain = |entity: &&Entity| ![&motet_requests::called(entity), entity.id.as_str()]
-        .iter()
-        .any(|name| name.contains(['"', '\\']));
+    let is_plain = |entity: &&Entity| {
+        ![&motet_requests::called(entity), entity.id.as_str()].iter().any(|name| name.contains(['"', '\\']))
+    };
     let mut surfaces =
         scene.entities.values().filter(|entity| entity.kind == kinds::SURFACE).filter(is_plain);
     let (first, second) = (surfaces.next()?, surfaces.next()?);

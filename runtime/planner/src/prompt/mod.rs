@@ -118,7 +118,8 @@ impl Prompt<'_> {
     fn done(&self) -> String {
         let entries = self.memory.entries();
         let skipped = entries.len().saturating_sub(LATEST).max(1);
-        let lines: String = entries.skip(skipped).map(|entry| format!("- {}\n", in_line(&entry.to_string()))).collect();
+        let lines: String =
+            entries.skip(skipped).map(|entry| format!("- {}\n", in_line(&entry.to_string()))).collect();
         let due = self.memory.due();
         let due: String =
             due.map(|due| format!("- still to clean up: {}\n", in_line(&due.to_string()))).collect();

@@ -103,12 +103,13 @@ impl Purpose {
 pub fn ground(pointer: &mut dyn Pointer, view: &RgbdView, purpose: &Purpose) -> Result<Pose, NoPoint> {
     let question = purpose.question(view);
     let mut ask = |question: &str| {
-        let reply = pointer.ask(&view.image, question).map_err(|why| Told::from(NoPoint::Silent(why)))?;
+        let reply =
+            pointer.ask(&view.image, question).map_err(|why| RejectedAnswer::from(NoPoint::Silent(why)))?;
         let found = point(&reply).and_then(|point| lift(point, &view.depth, &view.camera));
         found.map_err(|why| why.of(&reply))
     };
     match ask(&question) {
-        Err(Told { why, reply: Some(reply) }) if why.is_of_answer() => {
+        Err(RejectedAnswer { why, reply: Some(reply) }) if why.is_of_answer() => {
             let again =
                 format!("{question}\nYou answered `{reply}`, which cannot be used: {why}. Answer again.");
             ask(&again).map_err(|told| told.why)
@@ -118,20 +119,20 @@ pub fn ground(pointer: &mut dyn Pointer, view: &RgbdView, purpose: &Purpose) -> 
 }
 
 /// A mistake with the answer that has it.
-struct Told {
+struct RejectedAnswer {
     why: NoPoint,
     reply: Option<String>,
 }
 
-impl From<NoPoint> for Told {
+impl From<NoPoint> for RejectedAnswer {
     fn from(why: NoPoint) -> Self {
         Self { why, reply: None }
     }
 }
 
 impl NoPoint {
-    fn of(self, reply: &str) -> Told {
-        Told { why: self, reply: Some(reply.trim().chars().take(QUOTED).collect()) }
+    fn of(self, reply: &str) -> RejectedAnswer {
+        RejectedAnswer { why: self, reply: Some(reply.trim().chars().take(QUOTED).collect()) }
     }
 
     /// True if another answer may be better.

@@ -46,7 +46,7 @@ pub struct GroundingDriver<'d> {
     answers: Receiver<(u64, Result<Pose, NoPoint>)>,
     task: Rc<RefCell<GroundingTask>>,
     /// Open questions by goal.
-    asked: BTreeMap<GoalId, Asked>,
+    asked: BTreeMap<GoalId, PendingGoal>,
     /// Goals that the inner driver never saw.
     own: BTreeSet<GoalId>,
     /// Number of questions so far.
@@ -105,7 +105,7 @@ struct Question {
 }
 
 /// A goal that waits for an answer.
-struct Asked {
+struct PendingGoal {
     number: u64,
     object: SmolStr,
     used_for: SmolStr,
@@ -115,7 +115,7 @@ struct Asked {
     is_wanted: Arc<AtomicBool>,
 }
 
-impl Drop for Asked {
+impl Drop for PendingGoal {
     fn drop(&mut self) {
         self.is_wanted.store(false, Ordering::Relaxed);
     }
@@ -194,7 +194,7 @@ impl<'d> GroundingDriver<'d> {
         };
         let (object, used_for) = (object.clone(), used_for.clone());
         let (number, clock) = (self.count, Instant::now());
-        self.asked.insert(goal, Asked { number, object, used_for, at: now, clock, is_wanted });
+        self.asked.insert(goal, PendingGoal { number, object, used_for, at: now, clock, is_wanted });
         self.questions.send(question).is_ok()
     }
 
@@ -238,7 +238,7 @@ impl<'d> GroundingDriver<'d> {
     }
 }
 
-impl Asked {
+impl PendingGoal {
     /// Latest permitted time of the simulation: as much after the question as the clock.
     fn due(&self) -> Time {
         Time::from_secs(self.at.secs() + self.clock.elapsed().as_secs_f64())
@@ -345,7 +345,7 @@ impl Driver for GroundingDriver<'_> {
             if let Some(event) = self.due(until) {
                 return Some(event);
             }
-            let clocks = self.asked.values().map(Asked::due);
+            let clocks = self.asked.values().map(PendingGoal::due);
             let Some(limit) = clocks.min().filter(|limit| *limit < until) else { return self.forward(until) };
             if let Some(event) = self.forward(limit) {
                 return Some(event);

@@ -210,7 +210,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_robot_beside_its_path_is_told() {
+    fn robot_beside_its_path_is_told() {
         let leg = [vec![0.0, 0.0], vec![2.0, 0.0]];
         assert!(beside(&[1.0, 0.0], &leg) < 1e-12);
         assert!((beside(&[1.0, 0.5], &leg) - 0.5).abs() < 1e-12);

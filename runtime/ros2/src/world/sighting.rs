@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn a_label_is_of_the_nearest_thing_that_it_describes() {
+    fn label_is_of_the_nearest_thing_that_it_describes() {
         let world = room();
         let [x, y, z] = world.pose("mug_1").unwrap().xyz;
         let id = |name: &str| Some(name.to_owned());
@@ -171,13 +171,13 @@ mod tests {
     }
 
     #[test]
-    fn the_only_thing_of_a_name_is_known_anywhere() {
+    fn only_thing_of_a_name_is_known_anywhere() {
         let world = World::new(motet_robots::builtin::scene("kitchen").unwrap().clone());
         assert_eq!(ids(&world, &[seen("red mug", [0.0, 3.0, 0.5], 0.9)]), [Some("mug_1".to_owned())]);
     }
 
     #[test]
-    fn a_thing_that_the_scene_lacks_gets_the_id_that_the_host_would_give() {
+    fn thing_that_the_scene_lacks_gets_the_id_that_the_host_would_give() {
         let mut world = room();
         let stapler = seen("Blue stapler", [2.0, 0.5, 0.8], 0.9);
         assert_eq!(world.discover("red mug", &stapler), None);
@@ -196,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn the_host_says_which_detection_it_gave_an_id() {
+    fn host_says_which_detection_it_gave_an_id() {
         let mut world = room();
         let pose = seen("", [2.0, 0.5, 0.8], 0.9).pose;
         let told = ToldThing { id: "cup_7".into(), label: Some("green cup".into()), pose, support: None };
@@ -205,7 +205,7 @@ mod tests {
     }
 
     #[test]
-    fn a_thing_that_was_moved_is_reported_once() {
+    fn thing_that_was_moved_is_reported_once() {
         let mut world = room();
         let [x, y, z] = world.pose("mug_1").unwrap().xyz;
         let see = |dy: f64| {

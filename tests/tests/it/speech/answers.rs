@@ -1,6 +1,6 @@
 //! What somebody answers who was asked where a thing is, or whether to try again.
 
-use motet_requests::{Asked, RequestContext};
+use motet_requests::{PendingQuestion, RequestContext};
 use motet_tests::setup;
 
 #[test]
@@ -78,7 +78,7 @@ fn answer_who_wants_another_try_says_so_in_many_ways() {
 fn told(answer: &str) -> Vec<String> {
     let scene = setup::scene("kitchen");
     let situation = RequestContext { spoken_of: vec!["coke".into()], ..RequestContext::new(&scene) };
-    let told = motet_requests::told(answer, Asked::Where, &situation);
+    let told = motet_requests::told(answer, PendingQuestion::Where, &situation);
     told.iter().map(|one| format!("{} {}", one.relation, one.place)).collect()
 }
 

@@ -98,7 +98,7 @@ fn wrong_values_are_errors() {
 }
 
 #[test]
-fn a_policy_is_written() {
+fn policy_is_written() {
     let (environment, tokens) = (environment(c"hsr", c"kitchen".as_ptr()), vocabulary());
     unsafe {
         let decoder = motet_decoder_new(environment, tokens, 1000);

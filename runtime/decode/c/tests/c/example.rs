@@ -7,7 +7,7 @@ use motet_decode::Environment;
 use motet_syntax::{FileId, Severity, Source};
 
 #[test]
-fn the_example_writes_policies_that_check() {
+fn example_writes_policies_that_check() {
     if !Command::new("cc").arg("--version").output().is_ok_and(|ran| ran.status.success()) {
         println!("skipped: there is no compiler `cc`");
         return;

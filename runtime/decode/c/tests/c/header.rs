@@ -3,7 +3,7 @@
 use std::path::Path;
 
 #[test]
-fn the_header_is_current() {
+fn header_is_current() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
     let config = cbindgen::Config::from_file(folder.join("cbindgen.toml")).unwrap();
     let mut builder = cbindgen::Builder::new().with_config(config);

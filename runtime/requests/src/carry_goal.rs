@@ -7,10 +7,10 @@ use smol_str::SmolStr;
 
 use crate::RequestError;
 use crate::command::{BELONGS, Command, KEPT, WANTED};
+use crate::command_goal::{all_of, any_of, hold_on, not, question};
 use crate::engine::noun::{Noun, Relation, Spot, Which};
 use crate::engine::verb::Act;
 use crate::engine::vocabulary::Role;
-use crate::errand::{all_of, any_of, hold_on, not, question};
 use crate::meaning::{HOLDERS, OBJECTS, Reader};
 
 /// The target of a command that takes a thing somewhere.

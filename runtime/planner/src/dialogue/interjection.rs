@@ -4,7 +4,9 @@
 use std::sync::Arc;
 
 use motet_compiler::{Geometry, Session};
-use motet_requests::{Asked, Intent, ReportedLocation, RequestContext, RoomQuestion, added, withdrawn};
+use motet_requests::{
+    Intent, PendingQuestion, ReportedLocation, RequestContext, RoomQuestion, added, withdrawn,
+};
 use motet_robots::scene::Scene;
 use smol_str::SmolStr;
 
@@ -138,7 +140,7 @@ pub(super) fn answer(
         let scene = known.scene(&scene);
         let situation = known.situation(&scene);
         let spoken_of: Vec<SmolStr> = motet_requests::named(&question, &situation);
-        motet_requests::told(&said, Asked::Where, &RequestContext { spoken_of, ..situation })
+        motet_requests::told(&said, PendingQuestion::Where, &RequestContext { spoken_of, ..situation })
     })
 }
 

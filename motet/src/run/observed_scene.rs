@@ -1,17 +1,17 @@
-//! Room as the robot knows it during a run, with all that it has seen.
+//! Scene as the robot knows it during a run, with all that it has seen.
 
 use motet_planner::dialogue::Knowledge;
 use motet_planner::runtime_check::Guard;
 use motet_robots::scene::Scene;
 use motet_runtime::{Answer, Detection, Engine, Query, ToldThing};
 
-/// Room that changes by the detections of the driver. Observers of a run pass their calls of the same name
+/// Scene that changes by the detections of the driver. Observers of a run pass their calls of the same name
 /// on.
 #[derive(Debug, Default)]
-pub struct Room(Option<(Scene, Knowledge)>);
+pub struct ObservedScene(Option<(Scene, Knowledge)>);
 
-impl Room {
-    /// Room of a scene; without one, detections change nothing.
+impl ObservedScene {
+    /// The observed scene of a scene; without one, detections change nothing.
     #[must_use]
     pub fn new(scene: Option<Scene>) -> Self {
         Self(scene.map(|scene| (scene, Knowledge::default())))

@@ -9,14 +9,14 @@ use motet_sim::Sim;
 
 /// Pictures of a driver that somebody else drives.
 #[derive(Clone)]
-pub enum Eyes {
+pub enum DriverCamera {
     /// Simulator, whose camera turns to what is worth to be seen.
     Simulator(Rc<RefCell<Sim>>),
     /// Driver process, whose camera looks where it is turned.
     Process(Rc<RefCell<RemoteDriver>>),
 }
 
-impl Perception for Eyes {
+impl Perception for DriverCamera {
     fn image(&mut self, now: Time) -> Option<CameraImage> {
         match self {
             Self::Simulator(simulator) => simulator.image(now),

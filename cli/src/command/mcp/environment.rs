@@ -1,5 +1,5 @@
-//! Situations in which the tools check, plan and simulate: the robot and the scene of the command line, as a
-//! run has left them, and the built-in robots and scenes.
+//! Environments in which the tools check, plan and simulate: the robot and the scene of the command line, as
+//! a run has left them, and the built-in robots and scenes.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError, RwLock};
@@ -19,7 +19,7 @@ use crate::output::note;
 
 /// A robot in a scene at one time.
 #[derive(Debug)]
-pub(crate) struct Situation {
+pub(crate) struct AgentEnvironment {
     pub(crate) project: Arc<ProjectSession>,
     /// Session in the present state.
     pub(super) session: Session,
@@ -28,7 +28,7 @@ pub(crate) struct Situation {
     pub(super) known: Knowledge,
 }
 
-impl Situation {
+impl AgentEnvironment {
     fn open(inputs: ProjectBuilder) -> Result<Self, CliError> {
         let opened = inputs.open_with(&mut StderrSink)?.into_session(&mut StderrSink)?;
         let (session, known) = (opened.session.clone(), Knowledge::of(opened.told_facts()));
@@ -62,41 +62,41 @@ impl DiagnosticSink for StderrSink {
     }
 }
 
-/// Situations that calls may name.
-pub(crate) struct Situations {
+/// Environments that calls may name.
+pub(crate) struct AgentEnvironments {
     /// Name of the scene of the command line.
     scene: Option<String>,
     /// The one of the command line.
-    own: RwLock<Arc<Situation>>,
+    own: RwLock<Arc<AgentEnvironment>>,
     /// Built-in robots in built-in scenes, by their names; empty for none.
-    built_in: Mutex<BTreeMap<(String, String), Arc<Situation>>>,
+    built_in: Mutex<BTreeMap<(String, String), Arc<AgentEnvironment>>>,
 }
 
-impl Situations {
+impl AgentEnvironments {
     /// Opens the situation of the command line.
     pub(crate) fn open(inputs: ProjectBuilder, scene: Option<String>) -> Result<Self, CliError> {
-        let own = RwLock::new(Arc::new(Situation::open(inputs)?));
+        let own = RwLock::new(Arc::new(AgentEnvironment::open(inputs)?));
         Ok(Self { scene, own, built_in: Mutex::default() })
     }
 
     /// The robot of the command line, at present.
-    pub(crate) fn own(&self) -> Arc<Situation> {
+    pub(crate) fn own(&self) -> Arc<AgentEnvironment> {
         Arc::clone(&self.own.read().unwrap_or_else(PoisonError::into_inner))
     }
 
     /// Replaces the situation of the command line by a later one.
-    pub(super) fn publish(&self, now: Situation) {
+    pub(super) fn publish(&self, now: AgentEnvironment) {
         *self.own.write().unwrap_or_else(PoisonError::into_inner) = Arc::new(now);
     }
 
-    /// Situation for a policy: as [`Situations::find`] has it, but with the robot that the policy names where
-    /// neither the call nor the command line gives one.
+    /// Environment for a policy: as [`AgentEnvironments::find`] has it, but with the robot that the policy
+    /// names where neither the call nor the command line gives one.
     pub(super) fn find_for(
         &self,
         policy: &str,
         robot: Option<&str>,
         scene: Option<&str>,
-    ) -> Result<Arc<Situation>, Refusal> {
+    ) -> Result<Arc<AgentEnvironment>, Refusal> {
         let named = match robot {
             None if self.own().project.robot.is_none() => named_robot(&read(policy)?.1.file),
             _ => None,
@@ -104,9 +104,13 @@ impl Situations {
         self.find(robot.or(named.as_deref()), scene)
     }
 
-    /// Situation that a call names: built-in names, or by default those of the command line. No call opens a
+    /// Environment that a call names: built-in names, or by default those of the command line. No call opens a
     /// file.
-    pub(super) fn find(&self, robot: Option<&str>, scene: Option<&str>) -> Result<Arc<Situation>, Refusal> {
+    pub(super) fn find(
+        &self,
+        robot: Option<&str>,
+        scene: Option<&str>,
+    ) -> Result<Arc<AgentEnvironment>, Refusal> {
         let own = self.own();
         let is_own_robot = robot.is_none_or(|name| name == own.robot_name());
         let is_own_scene = scene.is_none_or(|name| Some(name) == self.scene.as_deref());
@@ -132,7 +136,7 @@ impl Situations {
         if !scene.is_empty() {
             inputs = inputs.scene(scene);
         }
-        let opened = Arc::new(Situation::open(inputs)?);
+        let opened = Arc::new(AgentEnvironment::open(inputs)?);
         built_in.insert(name, Arc::clone(&opened));
         Ok(opened)
     }

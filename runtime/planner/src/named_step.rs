@@ -1,7 +1,7 @@
 //! Steps that a request asks for by their name, as text of a policy.
 
 use motet_compiler::Session;
-use motet_requests::Deed;
+use motet_requests::NamedStep;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_stdlib::lang::{fluents, kinds, primitives};
@@ -11,37 +11,37 @@ use smol_str::SmolStr;
 use crate::planned::quoted;
 
 /// Primitive of a deed.
-const fn primitive(deed: &Deed) -> &'static str {
+const fn primitive(deed: &NamedStep) -> &'static str {
     match deed {
-        Deed::Turn { .. } => primitives::TURN,
-        Deed::WakeUp => primitives::WAKE_UP,
-        Deed::Home => primitives::HOME,
-        Deed::Inspect { .. } => primitives::INSPECT,
+        NamedStep::Turn { .. } => primitives::TURN,
+        NamedStep::WakeUp => primitives::WAKE_UP,
+        NamedStep::Home => primitives::HOME,
+        NamedStep::Inspect { .. } => primitives::INSPECT,
     }
 }
 
 /// True if the robot can do it.
-pub(crate) fn has(deed: &Deed, session: &Session) -> bool {
+pub(crate) fn has(deed: &NamedStep, session: &Session) -> bool {
     session.signatures().callable(primitive(deed)).is_some()
 }
 
 /// A deed behind `I cannot`.
-pub(crate) const fn words(deed: &Deed) -> &'static str {
+pub(crate) const fn words(deed: &NamedStep) -> &'static str {
     match deed {
-        Deed::Turn { .. } => "turn on the spot",
-        Deed::WakeUp => "wake up, since I am always ready",
-        Deed::Home => "fold my arm",
-        Deed::Inspect { .. } => "look at a single thing",
+        NamedStep::Turn { .. } => "turn on the spot",
+        NamedStep::WakeUp => "wake up, since I am always ready",
+        NamedStep::Home => "fold my arm",
+        NamedStep::Inspect { .. } => "look at a single thing",
     }
 }
 
 /// Steps of a deed.
-pub(crate) fn steps(deed: &Deed, robot: Option<&Robot>, scene: Option<&Scene>) -> String {
+pub(crate) fn steps(deed: &NamedStep, robot: Option<&Robot>, scene: Option<&Scene>) -> String {
     let name = primitive(deed);
     match deed {
-        Deed::Turn { degrees } => format!("{name}({degrees} deg)"),
-        Deed::WakeUp | Deed::Home => format!("{name}()"),
-        Deed::Inspect { thing, tells } => {
+        NamedStep::Turn { degrees } => format!("{name}({degrees} deg)"),
+        NamedStep::WakeUp | NamedStep::Home => format!("{name}()"),
+        NamedStep::Inspect { thing, tells } => {
             let id = print::identifier(thing);
             let report = if *tells { report(thing, robot, scene) } else { String::new() };
             format!("{name}({id})\n{report}")

@@ -8,6 +8,7 @@ use motet_syntax::ast::{Expr, ExprKind};
 use smol_str::SmolStr;
 
 use crate::command::{Command, words};
+use crate::command_goal::{all_of, not};
 use crate::engine::asking::skip_leads;
 use crate::engine::english::{STATES, TURNS_BY};
 use crate::engine::frame::plain;
@@ -15,10 +16,9 @@ use crate::engine::noun::noun;
 use crate::engine::rule::Rules;
 use crate::engine::token::Token;
 use crate::engine::vocabulary::Role;
-use crate::errand::{all_of, not};
 use crate::meaning::{HOLDERS, OBJECTS, Reader};
 use crate::parse::{self, Spoken};
-use crate::{Aim, Deed, Intent, Preference, RequestContext, RequestError};
+use crate::{Aim, Intent, NamedStep, Preference, RequestContext, RequestError};
 
 /// Pieces of a request, in order.
 enum Piece {
@@ -162,7 +162,7 @@ fn push(pieces: &mut Vec<Piece>, words: &[Token]) {
 impl Reader<'_> {
     fn piece(&mut self, piece: &Piece) -> Result<(), RequestError> {
         match piece {
-            Piece::Turn(degrees) => self.deed("turn_around", Deed::Turn { degrees: *degrees }),
+            Piece::Turn(degrees) => self.deed("turn_around", NamedStep::Turn { degrees: *degrees }),
             Piece::Words(words) => {
                 let spoken =
                     parse::parse(&plain(words)).map_err(|part| RequestError::NotUnderstood { part })?;
@@ -172,8 +172,8 @@ impl Reader<'_> {
                 let (name, about) =
                     said.split_first().map_or(("", said.as_slice()), |(name, about)| (name.word(), about));
                 match name {
-                    "wake_up" => self.deed("stand_up", Deed::WakeUp),
-                    "home" => self.deed("fold_arm", Deed::Home),
+                    "wake_up" => self.deed("stand_up", NamedStep::WakeUp),
+                    "home" => self.deed("fold_arm", NamedStep::Home),
                     "start" => {
                         let goal = fact(fluents::AT, &[entities::ROBOT, entities::START]);
                         self.aim("go_home".to_owned(), goal, Persistence::ToTheEnd);
@@ -182,7 +182,7 @@ impl Reader<'_> {
                         let thing = self.named_thing(about)?;
                         self.near(&thing);
                         let tells = tells == "tell";
-                        self.deed(&format!("inspect_{thing}"), Deed::Inspect { thing, tells });
+                        self.deed(&format!("inspect_{thing}"), NamedStep::Inspect { thing, tells });
                     }
                 }
             }
@@ -199,7 +199,7 @@ impl Reader<'_> {
     }
 
     /// Adds an aim without a goal, which is its step.
-    fn deed(&mut self, name: &str, deed: Deed) {
+    fn deed(&mut self, name: &str, deed: NamedStep) {
         let goal = all_of(Vec::new());
         let aims = self.said.aims.len();
         self.aim(name.to_owned(), goal, Persistence::Once);
