@@ -38,7 +38,7 @@ motet_syntax::mistakes! {
     }
     help(m) {
         Some(match m.key {
-            "id" => "an id is not empty, and has no back-quote, no `,` or `;`, and no control character".into(),
+            "id" => "an id has no back-quote, comma, semicolon or control character".into(),
             _ => "a name stands on one line and shows all of its characters".into(),
         })
     }

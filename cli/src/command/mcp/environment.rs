@@ -104,8 +104,8 @@ impl AgentEnvironments {
         self.find(robot.or(named.as_deref()), scene)
     }
 
-    /// Environment that a call names: built-in names, or by default those of the command line. No call opens a
-    /// file.
+    /// Environment that a call names: built-in names, or by default those of the command line. No call opens
+    /// a file.
     pub(super) fn find(
         &self,
         robot: Option<&str>,
