@@ -226,8 +226,8 @@ class Driver:
     def begin_run(self, run: dict[str, Any]) -> None:
         """Learns of a run that begins: `run` has `robot`, `policy`, `primitives` and perhaps `state`."""
 
-    def close(self) -> None:
-        """Called once at the end, when no host comes back."""
+    def shutdown(self) -> None:
+        """Called once at the end, when no host comes back. `close` is a primitive."""
 
     def report_moved(self, base: Any = None, joints: dict[str, float] | None = None, things: Any = ()) -> None:
         """Says where the robot is, for people: `base` is [x, y, yaw] in m and rad, `joints` m or rad by name."""

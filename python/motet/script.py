@@ -656,7 +656,7 @@ def run(script: Script, driver: Driver) -> End:
         loop.run_until_complete(asyncio.gather(*passing, return_exceptions=True))
         return end
     finally:
-        driver.close()
+        driver.shutdown()
         asyncio.set_event_loop(None)
         loop.close()
 

@@ -46,7 +46,7 @@ def _run(driver: Driver, serving: Callable[[Session], object]) -> None:
     try:
         loop.run_until_complete(serving(Session(driver, loop)))  # type: ignore[arg-type]
     finally:
-        driver.close()
+        driver.shutdown()
         left = asyncio.all_tasks(loop)
         for task in left:
             task.cancel()

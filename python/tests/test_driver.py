@@ -45,6 +45,13 @@ class Robot(Driver):
         await goal.sleep(1.0)
         self.door = True
 
+    async def close(self, goal, container):
+        await goal.sleep(1.0)
+        self.door = False
+
+    def shutdown(self):
+        self.said.append("the end")
+
     @observes("open")
     def is_open(self, container):
         return self.door
@@ -62,6 +69,7 @@ PRIMITIVES = [
     {"name": "ask", "result": "Text", "fails": ["timeout"]},
     {"name": "say", "fails": ["timeout"]},
     {"name": "open", "fails": ["stuck", "timeout"]},
+    {"name": "close", "fails": ["stuck", "timeout"]},
 ]
 
 
@@ -135,6 +143,18 @@ def test_goals_end_in_success_failure_and_refusal(host):
     states = {of["goal"]: of["state"] for of in host.call("status", goals=[1, 2, 5, 9])["goals"]}
     assert states[1] == {"ended": {"failure": "slipped"}} and states[9] == "unknown"
     assert states[5]["refused"]["kind"] == "refused"
+
+
+def test_close_is_a_primitive_and_not_the_end_of_the_driver(robot):
+    host = Host(robot)
+    capabilities = host.call("hello", protocol=2, run="r", at=0.0, primitives=PRIMITIVES)["capabilities"]
+    assert "close" in capabilities["primitives"]["only"] and "shutdown" not in capabilities["primitives"]["only"]
+    robot.door = True
+    host.start(1, "close", container=entity("drawer"))
+    host.pass_until(2.0)
+    assert host.of("ended") == [{"goal": 1, "outcome": {"success": None}}] and not robot.door
+    host.close()
+    assert robot.said == ["the end"]
 
 
 def test_a_second_start_does_nothing(host, robot):
@@ -249,6 +269,6 @@ def test_a_driver_says_which_primitives_it_has():
         def at(self, place):
             return True
 
-    assert Robot()._capabilities()["primitives"] == {"only": ["ask", "go", "open", "pick", "say"]}
+    assert Robot()._capabilities()["primitives"] == {"only": ["ask", "close", "go", "open", "pick", "say"]}
     assert Any()._capabilities()["primitives"] == "all"
     assert Odd()._capabilities()["primitives"] == {"only": ["return"]}

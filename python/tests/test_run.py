@@ -74,7 +74,7 @@ class Robot(motet.Driver):
         await goal.sleep(2.0)
         self.said.append(text)
 
-    def close(self):
+    def shutdown(self):
         self.is_closed = True
 
 
