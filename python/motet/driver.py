@@ -30,7 +30,7 @@ from .values import Text, decode, encode, python_name
 if TYPE_CHECKING:
     from .protocol import Session
 
-__all__ = ["Driver", "Failed", "Goal", "Motion", "Refused", "observes"]
+__all__ = ["Driver", "Failed", "Goal", "Lost", "Motion", "Refused", "observes"]
 
 #: Characters of a text for people that the host keeps.
 LONGEST = 1000
@@ -59,6 +59,10 @@ class Refused(Failed):
 
     def __init__(self, kind: str = "refused", text: str = "") -> None:
         super().__init__(kind, text)
+
+
+class Lost(Exception):
+    """Raised by a coroutine that no longer knows what its goal does: the host has it stopped safely."""
 
 
 @dataclass(frozen=True)
@@ -143,6 +147,12 @@ class Goal:
             self._session.report("feedback", {"goal": self.number, "text": text[:LONGEST]})
         await asyncio.sleep(0)
 
+    def not_held(self) -> None:
+        """Says that the goal cannot be held after all, and goes on."""
+        if self._session is not None:
+            self._session.report("not_held", {"goal": self.number})
+        self._proceed()
+
     async def sleep(self, seconds: float) -> None:
         """Waits for so long, not counting the time in which the goal is held."""
         loop = asyncio.get_running_loop()
@@ -198,15 +208,19 @@ class Driver:
     its end, such as `from_`. What it returns is the result. It raises `Failed` to end in a failure, and `Refused`, before its
     first `await`, to refuse. An observation returns a bool for a fact, a number in SI units for a measure, None for unknown.
 
+    A driver may also have `look(camera)`, `detections()` and `told(thing)`, with parameters and results as in the protocol, and a
+    simulator `truth(query)`, which answers a judge by what is so, whatever the robot knows.
+
     `can_hold` and `can_update` are "all" or the primitives whose goals can be held, or take new arguments while they run.
     Hold with `goal.sleep` or `goal.proceeding`. `owns_clock` is for simulators: time passes only in `goal.sleep` and
-    `asyncio.sleep`.
+    `asyncio.sleep`. `takes_state` says that `begin_run` makes the facts in `run["state"]` so.
     """
 
     name: str = ""
     can_hold: str | tuple[str, ...] = ()
     can_update: str | tuple[str, ...] = ()
     owns_clock: bool = False
+    takes_state: bool = False
     #: Seconds between two looks at what the host watches.
     watch_period: float = 0.1
 
@@ -240,6 +254,16 @@ class Driver:
         if self._session is not None:
             self._session.report("heard", {"text": text[:LONGEST]} | ({} if by is None else {"from": by}))
 
+    def report_detected(self, detections: Iterable[dict[str, Any]]) -> None:
+        """Says what the robot has just seen, as the answer to `detections` has it."""
+        if self._session is not None:
+            self._session.report("detected", {"detections": list(detections)})
+
+    def report_observed(self, query: dict[str, Any], answer: Any) -> None:
+        """Says what the robot noticed by itself. `query` and `answer` are those of the protocol; None is unknown."""
+        if self._session is not None:
+            self._session.report("observed", {"query": query, "answer": answer_of(query, answer)})
+
     def check_watched(self) -> None:
         """Looks at what the host watches now, instead of within `watch_period`."""
         if self._session is not None:
@@ -253,6 +277,7 @@ class Driver:
                         "moved": True}
         for name in ("look", "detections", "told"):
             capabilities[name] = callable(getattr(self, name, None))
+        capabilities["state"] = self.takes_state
         return capabilities | ({"clock": "driver"} if self.owns_clock else {})
 
     def _primitives(self) -> Any:
@@ -299,20 +324,24 @@ class Driver:
     async def _answer(self, query: dict[str, Any]) -> Any:
         """The answer to a query in the words of the protocol."""
         if "field" in query:
-            asked, kind, method = query["field"], "field", self._observer("field")
+            asked, method = query["field"], self._observer("field")
             args = [asked["entity"], asked["field"]]
         else:
-            kind = "fact" if "fact" in query else "measure"
-            asked = query[kind]
+            asked = query["fact" if "fact" in query else "measure"]
             method = self._observer(asked.get("fluent") or asked.get("measure"))
             args = [decode(arg) for arg in asked.get("args", ())]
         said = self.observe(query) if method is None else method(*args)
         if inspect.isawaitable(said):
             said = await said
-        if said is None or isinstance(said, dict):
-            return "unknown" if said is None else said
-        if kind == "fact":
-            return {"truth": bool(said)}
-        if isinstance(said, bool) or not isinstance(said, (int, float)):
-            return {"value": encode(said, "Text" if isinstance(said, Text) else None)}
-        return {"value": {"number": float(said)}}
+        return answer_of(query, said)
+
+
+def answer_of(query: dict[str, Any], said: Any) -> Any:
+    """What an observation returned, in the words of the protocol."""
+    if said is None or isinstance(said, dict):
+        return "unknown" if said is None else said
+    if "fact" in query:
+        return {"truth": bool(said)}
+    if isinstance(said, bool) or not isinstance(said, (int, float)):
+        return {"value": encode(said, "Text" if isinstance(said, Text) else None)}
+    return {"value": {"number": float(said)}}

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from typing import Any
 
 from .clock import DriverLoop
-from .driver import LONGEST, Driver, Failed, Goal, Refused
+from .driver import LONGEST, Driver, Failed, Goal, Lost, Refused, answer_of
 from .values import encode
 
 __all__ = ["Session"]
@@ -151,17 +151,19 @@ class Session:
         return {"now": min(params["until"], max(params.get("at", 0.0), self.now()))}
 
     async def perceive(self, method: str, params: dict[str, Any]) -> Any:
-        """Calls a method that the protocol has and a driver may have: `look`, `detections`, `told`."""
+        """Calls a method that the protocol has and a driver may have: `look`, `detections`, `told`, `truth`."""
         args = {key: value for key, value in params.items() if key != "at"}
         said = getattr(self.driver, method)(**args)
         if asyncio.iscoroutine(said):
             said = await said
+        if method == "truth":
+            return {"answer": answer_of(params["query"], said)}
         return {"detections": said} if method == "detections" else said if said is not None else {}
 
     METHODS = frozenset(
         "hello start update cancel hold proceed safe_stop observe watch unwatch status ping advance".split()
     )
-    PERCEPTION = frozenset(("look", "detections", "told"))
+    PERCEPTION = frozenset(("look", "detections", "told", "truth"))
 
     # Goals.
 
@@ -185,6 +187,10 @@ class Session:
                 outcome: Any = {"failure": self.declared(goal, failed)}
             else:
                 outcome = "interrupted" if goal._saw_cancel else {"success": value}
+        except Lost:
+            # It counts as running until the host has it stopped.
+            self.report("lost", {"goal": goal.number})
+            return
         except asyncio.CancelledError:
             outcome = "interrupted"
         except Exception as error:

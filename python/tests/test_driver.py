@@ -7,7 +7,7 @@ import threading
 
 import pytest
 from motet.clock import new_loop
-from motet.driver import Driver, Failed, Refused, observes
+from motet.driver import Driver, Failed, Lost, Refused, observes
 from motet.protocol import Session
 from motet.serving import _run, serve_connection
 from motet.values import ANY, Case, Pose, Text, decode, encode
@@ -49,6 +49,17 @@ class Robot(Driver):
         await goal.sleep(1.0)
         self.door = False
 
+    async def search(self, goal, what):
+        await goal.sleep(1.0)
+        goal.not_held()
+        self.report_detected([{"label": what, "confidence": 0.5}])
+        self.report_observed({"measure": {"measure": "battery", "args": []}}, 0.25)
+        await goal.sleep(1.0)
+        raise Lost("the link to the arm is gone")
+
+    def truth(self, query):
+        return self.door
+
     def shutdown(self):
         self.said.append("the end")
 
@@ -70,6 +81,7 @@ PRIMITIVES = [
     {"name": "say", "fails": ["timeout"]},
     {"name": "open", "fails": ["stuck", "timeout"]},
     {"name": "close", "fails": ["stuck", "timeout"]},
+    {"name": "search", "fails": ["timeout"]},
 ]
 
 
@@ -155,6 +167,28 @@ def test_close_is_a_primitive_and_not_the_end_of_the_driver(robot):
     assert host.of("ended") == [{"goal": 1, "outcome": {"success": None}}] and not robot.door
     host.close()
     assert robot.said == ["the end"]
+
+
+def test_what_a_driver_notices_and_no_longer_knows_is_reported(host, robot):
+    host.start(1, "search", what={"text": "cup"})
+    host.pass_until(1.5)
+    assert host.of("not_held") == [{"goal": 1}]
+    assert host.of("detected") == [{"detections": [{"label": "cup", "confidence": 0.5}]}]
+    query = {"measure": {"measure": "battery", "args": []}}
+    assert host.of("observed") == [{"query": query, "answer": {"value": {"number": 0.25}}}]
+    host.pass_until(3.0)
+    assert host.of("lost") == [{"goal": 1}] and host.of("ended") == []
+    host.call("safe_stop", goal=1)
+    host.pass_until(4.0)
+    assert host.of("stopped") == [{"goal": 1}] and robot.stopped == [1]
+    assert host.call("status", goals=[1])["goals"] == [{"goal": 1, "state": "stopped"}]
+
+
+def test_truth_is_the_answer_to_a_judge(host, robot):
+    query = {"fact": {"fluent": "open", "args": [{"is": entity("drawer")}]}}
+    assert host.call("truth", query=query) == {"answer": {"truth": False}}
+    robot.door = True
+    assert host.call("truth", query=query) == {"answer": {"truth": True}}
 
 
 def test_a_second_start_does_nothing(host, robot):
@@ -269,6 +303,6 @@ def test_a_driver_says_which_primitives_it_has():
         def at(self, place):
             return True
 
-    assert Robot()._capabilities()["primitives"] == {"only": ["ask", "close", "go", "open", "pick", "say"]}
+    assert Robot()._capabilities()["primitives"] == {"only": ["ask", "close", "go", "open", "pick", "say", "search"]}
     assert Any()._capabilities()["primitives"] == "all"
     assert Odd()._capabilities()["primitives"] == {"only": ["return"]}
