@@ -23,7 +23,7 @@ mod run_view;
 mod runner;
 mod shared_sessions;
 mod sibling;
-mod swap_desk;
+mod swap_checker;
 mod typed_line;
 mod view;
 

@@ -24,7 +24,7 @@ use crate::flags::Speed;
 use crate::interrupt::{SLICE, catch_interrupts, is_interrupted, note_effect, note_event};
 use crate::output::{escape, note};
 use crate::run_view::View;
-use crate::swap_desk::SwapDesk;
+use crate::swap_checker::SwapChecker;
 use crate::view::live::SharedPage;
 use crate::view::onlooker::PageObserver;
 
@@ -38,7 +38,7 @@ pub(crate) struct PacedView {
     /// The room as the robot knows it, with what it has seen.
     room: ObservedScene,
     /// Desk of policies that are to take over, with the view of one that does.
-    desk: Option<(SwapDesk, ViewOf)>,
+    desk: Option<(SwapChecker, ViewOf)>,
 }
 
 /// Maker of the view of a graph.
@@ -64,7 +64,7 @@ impl PacedView {
     }
 
     /// The same with a desk of policies that are to take over.
-    pub(crate) fn with_desk(self, desk: Option<SwapDesk>, view_of: ViewOf) -> Self {
+    pub(crate) fn with_desk(self, desk: Option<SwapChecker>, view_of: ViewOf) -> Self {
         Self { desk: desk.map(|desk| (desk, view_of)), ..self }
     }
 

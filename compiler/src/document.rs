@@ -15,7 +15,7 @@ use crate::environment::Environment;
 use crate::facts::effort;
 use crate::feasibility::{Geometry, MotionVerdict, MotionVerdicts};
 use crate::ir::{Program, StepKind};
-use crate::limits::errors::NoPolicy;
+use crate::limits::diagnostics::NoPolicy;
 use crate::lower::StepInspection;
 use crate::prove::{GoalVerdict, Proof};
 use crate::repair::{Finding, RepairFinder};
@@ -488,7 +488,7 @@ impl ErrorBudget {
 /// The diagnostics of findings, without the errors that are too many.
 fn limited(findings: Vec<Finding>) -> Vec<Diagnostic> {
     let mut diagnostics = findings.into_iter().map(|found| found.diagnostic).collect();
-    motet_syntax::errors::limit(&mut diagnostics);
+    motet_syntax::diagnostics::limit(&mut diagnostics);
     diagnostics
 }
 

@@ -58,8 +58,8 @@ pub fn all() -> Vec<Code> {
     let stages = [
         motet_pddl::CODES,
         motet_btcpp::CODES,
-        crate::declare::errors::CODES,
-        crate::resolve::errors::CODES,
+        crate::declare::diagnostics::CODES,
+        crate::resolve::diagnostics::CODES,
         crate::environment::CODES,
         crate::declare::CARD_CODES,
         motet_robots::card::CODES,
@@ -68,11 +68,11 @@ pub fn all() -> Vec<Code> {
         motet_robots::scene::CODES,
         motet_robots::urdf::CODES,
         motet_robots::srdf::CODES,
-        crate::limits::errors::CODES,
-        crate::prove::errors::CODES,
-        crate::feasibility::errors::CODES,
+        crate::limits::diagnostics::CODES,
+        crate::prove::diagnostics::CODES,
+        crate::feasibility::diagnostics::CODES,
     ];
-    let front_end = motet_syntax::errors::CODES;
+    let front_end = motet_syntax::diagnostics::CODES;
     let mut codes: Vec<_> = front_end.into_iter().chain(stages).flatten().copied().collect();
     codes.sort_unstable();
     codes

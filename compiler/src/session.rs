@@ -117,7 +117,7 @@ impl<'a> SessionBuilder<'a> {
         let (library, mut diagnostics) = builder.clone().build();
         let (environment, of_environment) = Environment::new(&library, self.scene, self.state);
         diagnostics.extend(of_environment);
-        motet_syntax::errors::limit(&mut diagnostics);
+        motet_syntax::diagnostics::limit(&mut diagnostics);
         Session {
             builder: Arc::new(builder),
             library: Arc::new(library),

@@ -5,7 +5,7 @@ use motet_compiler::{DocumentCheck, Library, make_explicit};
 use motet_project::files::{Bytes, decode};
 use motet_project::{DOCUMENT, ProjectSession};
 use motet_syntax::ast::{self, Item, Policy};
-use motet_syntax::errors::too_large;
+use motet_syntax::diagnostics::too_large;
 use motet_syntax::{Diagnostic, Parsed, Severity, Source, Span, Syntax, print};
 
 /// Maximum number of fixes that are applied to one document.

@@ -39,7 +39,7 @@ use crate::ready_driver::{ReadyDriver, RunSubject, open_driver};
 use crate::report::Report;
 use crate::run_view::{Clock, view};
 use crate::runner::{Beginning, PacedView, Runner, connect, exit_of};
-use crate::swap_desk::SwapDesk;
+use crate::swap_checker::SwapChecker;
 use crate::view::answered::AnsweredQuestions;
 use crate::view::conversation::session;
 use crate::view::journal::recorded_text;
@@ -212,7 +212,7 @@ fn with_desk(
 ) -> PacedView {
     let options = CheckOptions { max_duration_secs: args.session.max_duration };
     let desk = page.zip(opened).and_then(|(page, opened)| {
-        let (desk, offers) = SwapDesk::new(opened, options)?;
+        let (desk, offers) = SwapChecker::new(opened, options)?;
         page.borrow().hub().take_offers(offers);
         Some(desk)
     });

@@ -11,7 +11,7 @@ use motet_runtime::{CameraImage, RunControl, Time};
 use serde_json::{Value, json};
 use tokio::sync::watch;
 
-use crate::swap_desk::{Offer, SwapResult};
+use crate::swap_checker::{Offer, SwapResult};
 
 /// Bytes of items after which a page gets no more of them.
 const MOST_BYTES: usize = 512 * 1024 * 1024;

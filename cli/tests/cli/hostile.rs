@@ -1,6 +1,8 @@
 //! Strings of others with characters that steer a terminal, in each kind of input and each format: none of
 //! them reaches a stream as it is.
 
+use sha2::{Digest as _, Sha256};
+
 use crate::driver::{has_python, odd};
 use crate::support::{Place, Ran};
 
@@ -24,14 +26,23 @@ fn json(text: &str) -> String {
     text.replace('§', r"x\u001b[2J\u009b\u007f\u202e\u2028\u0000\n# y")
 }
 
-/// A journal whose policy, run and driver have such names: checksums are no signatures.
-fn forged(of: &str) -> String {
-    let entries = of.lines().map(|line| {
+/// A journal with other texts in it, whose checksums and hashes are right again: they are no signatures.
+fn forged(of: &str, texts: &[(&str, &str)]) -> String {
+    let hash = |line: &str| -> String {
+        Sha256::digest(line.as_bytes()).iter().take(16).map(|byte| format!("{byte:02x}")).collect()
+    };
+    let (mut before, mut last, mut whole) = (hash(""), hash(""), String::new());
+    for line in of.lines() {
         let (_, entry) = line.split_once(' ').unwrap();
-        let entry = entry.replace("KEY", &json("§"));
-        format!("{:08x} {entry}\n", crc32fast::hash(entry.as_bytes()))
-    });
-    entries.collect()
+        assert!(entry.contains(&before), "{entry}");
+        let mut entry = entry.replace(&before, &last);
+        texts.iter().for_each(|(from, to)| entry = entry.replace(from, to));
+        let forged = format!("{:08x} {entry}", crc32fast::hash(entry.as_bytes()));
+        (before, last) = (hash(line), hash(&forged));
+        whole.push_str(&forged);
+        whole.push('\n');
+    }
+    whole
 }
 
 /// Checks that no stream has what steers a terminal.
@@ -188,8 +199,14 @@ fn journals_with_hostile_strings_are_shown_escaped() {
     let journal = place.read("rec/000000000000.journal");
     let short: String = journal.split_inclusive('\n').take(6).collect();
     let (mut place, mut shown) = (place, 0);
+    let name = json("§");
+    // The hash of the graph is told where it is wrong.
+    place = place.file("wrong/000000000000.journal", forged(&journal, &[("KEY", &name)]));
+    let told = place.run("replay wrong").stderr;
+    let hashes: Vec<&str> = told.split("sha256:").skip(1).filter_map(|rest| rest.get(..64)).collect();
+    let texts = [("KEY", name.as_str()), (hashes[1], hashes[0])];
     for (folder, text) in [("whole", &journal), ("short", &short)] {
-        place = place.file(&format!("{folder}/000000000000.journal"), forged(text));
+        place = place.file(&format!("{folder}/000000000000.journal"), forged(text, &texts));
         for line in
             ["replay F", "replay F --at 3", "replay F --json --at 3", "view F -o page.html", "export mcap F"]
                 .into_iter()
@@ -211,17 +228,16 @@ fn drivers_with_hostile_strings_are_shown_escaped() {
         return;
     }
     let then = "\
-        \x20   say({'method': 'feedback', 'params': {'goal': 1, 'message': X}})\n\
-        \x20   say({'method': 'ended', 'params': {'goal': X, 'outcome': {X: X}}})\n\
-        \x20   say({'method': X, 'params': {X: X}})\n\
         \x20   if m['method'] == 'start':\n\
         \x20       say({'id': m['id'], 'result': {}})\n\
+        \x20       say({'method': 'feedback', 'params': {'goal': m['params']['goal'], 'text': X}})\n\
         \x20       say({'method': 'ended', 'params': {'goal': m['params']['goal'],\n\
         \x20           'outcome': {'failure': {'kind': X, 'text': X}}}})\n\
         \x20   elif 'id' in m:\n\
-        \x20       say({'id': m['id'], 'error': {'code': 1, 'message': X}})\n";
+        \x20       say({'id': m['id'], 'error': {'code': 1, 'message': X}})\n\
+        \x20       say({'method': X, 'params': {X: X}})\n";
     let script = odd(then).replace("'odd'", "X").replace("'x'", "X");
-    let script = format!("X = {:?}\nimport sys; print(X, file=sys.stderr)\n{script}", "MARK");
+    let script = format!("X = {:?}\n{script}", "MARK");
     let script = script.replace("\"MARK\"", r"'x\x1b[2J\x9b\u202e\x00\ny'");
     let place = Place::new("hostile_drivers")
         .file("d.py", script)

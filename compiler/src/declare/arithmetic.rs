@@ -6,9 +6,9 @@ use motet_syntax::suggest::one_of;
 use motet_syntax::unit::{Dimension, Unit};
 use smol_str::SmolStr;
 
+use super::diagnostics;
+use super::diagnostics::WrongDimension;
 use super::elaborator::{Elaborator, Expected, ValueRole, percent};
-use super::errors;
-use super::errors::WrongDimension;
 use super::name::article;
 use crate::ir::{Base, BindingId, Term, Ty};
 
@@ -42,7 +42,7 @@ impl Elaborator<'_> {
         };
         let ty = Ty::plain(base);
         if op == ArithOp::Divide && literal(&right) == Some(0.0) {
-            self.report(errors::DivisionByZero { span });
+            self.report(diagnostics::DivisionByZero { span });
             return (Term::Unknown, ty);
         }
         let known = literal(&left).zip(literal(&right)).map(|(a, b)| match op {
@@ -185,7 +185,7 @@ impl Elaborator<'_> {
         match term {
             Term::Number(value) if !(0.0..=MAX_DISTANCE_M).contains(&value) => {
                 let unit = expr.unit().unwrap_or(Unit::Metre);
-                self.report(errors::OutOfRange {
+                self.report(diagnostics::OutOfRange {
                     span: expr.span,
                     place: "a least distance".to_owned(),
                     least: unit.show(0.0),
@@ -219,7 +219,7 @@ impl Elaborator<'_> {
                 let (least, greatest) =
                     (unit.show(if value < least { least } else { 0.0 }), unit.show(MAX_SECONDS));
                 let actual = unit.show(value);
-                self.report(errors::OutOfRange {
+                self.report(diagnostics::OutOfRange {
                     span: expr.span,
                     place: place.to_owned(),
                     least,
@@ -232,7 +232,7 @@ impl Elaborator<'_> {
             Term::Unknown => None,
             Term::Binding(id) if self.is_param(id) => None,
             _ => {
-                self.report(errors::NotConstant { span: expr.span, place });
+                self.report(diagnostics::NotConstant { span: expr.span, place });
                 None
             }
         }
@@ -250,7 +250,7 @@ impl Elaborator<'_> {
             Term::Number(value) if value >= LEAST_PART => Some(value),
             Term::Number(value) => {
                 let shown = |part: f64| format!("{} %", percent(part));
-                self.report(errors::OutOfRange {
+                self.report(diagnostics::OutOfRange {
                     span: expr.span,
                     place: place.to_owned(),
                     least: shown(LEAST_PART),
@@ -263,7 +263,7 @@ impl Elaborator<'_> {
             Term::Unknown => None,
             Term::Binding(id) if self.is_param(id) => None,
             _ => {
-                self.report(errors::NotConstant { span: expr.span, place });
+                self.report(diagnostics::NotConstant { span: expr.span, place });
                 None
             }
         }
@@ -272,7 +272,7 @@ impl Elaborator<'_> {
     /// Elaborates a constant count of at least `least`.
     pub(crate) fn count(&mut self, expr: &Expr, place: &'static str, least: u32) -> Option<u32> {
         let wanted = Expected { ty: Ty::INT, place: ValueRole::Named(place) };
-        let beyond = |actual: String| errors::OutOfRange {
+        let beyond = |actual: String| diagnostics::OutOfRange {
             span: expr.span,
             place: place.to_owned(),
             least: least.to_string(),
@@ -299,7 +299,7 @@ impl Elaborator<'_> {
             Term::Unknown => None,
             Term::Binding(id) if self.is_param(id) => None,
             _ => {
-                self.report(errors::NotConstant { span: expr.span, place });
+                self.report(diagnostics::NotConstant { span: expr.span, place });
                 None
             }
         }

@@ -15,8 +15,8 @@ use rustc_hash::FxHashMap;
 use smol_str::SmolStr;
 
 use super::contract;
+use super::diagnostics::{BadDeclaration, Duplicate, FluentParameter, LimitExceeded, UnknownType};
 use super::elaborator::Elaborator;
-use super::errors::{BadDeclaration, Duplicate, FluentParameter, LimitExceeded, UnknownType};
 use super::library::{EnumDef, FailureDef, FluentDef, KindDef, LangItems, Library, MeasureDef};
 use super::name::near;
 use crate::ir::{Base, Entities, Entity, EnumId, Failure, Fluent, Kind, MAX_ENTITIES, Measure, Ty};

@@ -11,7 +11,7 @@ use motet_syntax::{Diagnostic, Mistake, Related, Span};
 use smol_str::SmolStr;
 
 use super::builder::Declarations;
-use super::errors::UnknownResource;
+use super::diagnostics::UnknownResource;
 use super::library::{EnumDef, Library, Manners, ResourceDef, ResourceSet};
 use super::name::{list, near};
 use crate::ir::{Base, EnumId, Ty};

@@ -5,8 +5,8 @@ use motet_syntax::unit::Dimension;
 use smol_str::SmolStr;
 
 use super::arithmetic::dimension;
+use super::diagnostics::{MissingArgument, NotACondition, TooManyArguments, UnknownFluent, UnknownParameter};
 use super::elaborator::{Elaborator, Expected, ValueRole};
-use super::errors::{MissingArgument, NotACondition, TooManyArguments, UnknownFluent, UnknownParameter};
 use super::list_term::IS_EMPTY;
 use super::name::{list, near};
 use super::words;

@@ -11,11 +11,11 @@ use smol_str::SmolStr;
 
 use super::builder::{Declarations, MAX_INITIALLY, MAX_PATTERNS, elaborator, limit};
 use super::card;
-use super::elaborator::{Elaborator, Expected, ValueRole};
-use super::errors::{
+use super::diagnostics::{
     BadDeclaration, Duplicate, LimitExceeded, ReservedName, UnknownFailure, UnknownMotion, UnknownResource,
     UnknownType,
 };
+use super::elaborator::{Elaborator, Expected, ValueRole};
 use super::library::{EffectDef, FAILURE, LastsDef, Library, NeedDef, ParamDef, PrimitiveDef, ResourceSet};
 use super::name::{list, near};
 use crate::ir::{Base, Entities, Kind, MotionKind, Primitive, TIMEOUT, Term, Ty};

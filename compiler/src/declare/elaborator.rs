@@ -7,7 +7,7 @@ use motet_syntax::{About, Diagnostic, Severity, Span, Syntax};
 use rustc_hash::{FxHashMap, FxHashSet};
 use smol_str::{SmolStr, format_smolstr};
 
-use super::errors::{
+use super::diagnostics::{
     MisplacedAny, MissingUnit, NotACondition, OutOfRange, UnknownField, UnknownFluent, WrongType,
 };
 use super::list_term::{COUNT, FIRST, IS_EMPTY};

@@ -5,8 +5,8 @@ use motet_syntax::Span;
 use motet_syntax::ast::{Call, CompareOp, Expr, ExprKind, POSE, TextPart};
 use smol_str::SmolStr;
 
+use super::diagnostics::{MissingArgument, TooManyArguments, UnknownParameter, WrongType};
 use super::elaborator::{Elaborator, ValueRole};
-use super::errors::{MissingArgument, TooManyArguments, UnknownParameter, WrongType};
 use crate::ir::{Base, Condition, Term, Ty};
 
 /// The number of elements.

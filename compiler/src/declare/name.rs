@@ -6,8 +6,8 @@ use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 use smol_str::{SmolStr, format_smolstr};
 
+use super::diagnostics::{UnknownBinding, UnknownCase, UnknownName};
 use super::elaborator::{Elaborator, Expected, parse_quantity};
-use super::errors::{UnknownBinding, UnknownCase, UnknownName};
 use super::unbound::UnboundName;
 use crate::ir::{Base, BindingId, EnumId, Term, Ty};
 

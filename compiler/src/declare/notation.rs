@@ -8,8 +8,8 @@ use motet_syntax::words::is_bare_name;
 use motet_syntax::{Edit, Fix, Span, Syntax, print, text};
 use smol_str::{SmolStr, format_smolstr};
 
+use super::diagnostics::ReadNotation;
 use super::elaborator::{Elaborator, Expected};
-use super::errors::ReadNotation;
 use super::list_term::{COUNT, FIRST};
 use crate::ir::{Base, Condition, Term, Ty};
 

@@ -5,10 +5,10 @@ use motet_syntax::Span;
 use motet_syntax::ast::{Call, Expr, POSE};
 use smol_str::SmolStr;
 
-use super::elaborator::{Elaborator, Expected, ValueRole};
-use super::errors::{
+use super::diagnostics::{
     MissingArgument, NotConstant, OutOfRange, POSE_NUMBER, TooManyArguments, UnknownParameter,
 };
+use super::elaborator::{Elaborator, Expected, ValueRole};
 use crate::ir::{Base, Term, Ty};
 
 /// Greatest coordinate in m and angle in rad of a pose, as in a scene.

@@ -8,7 +8,7 @@ use motet_syntax::{Diagnostic, Span};
 use smallvec::SmallVec;
 use smol_str::SmolStr;
 
-use super::errors::{PartlyBound, TwoTypes};
+use super::diagnostics::{PartlyBound, TwoTypes};
 use crate::ir::BindingId;
 
 /// A name without a value.

@@ -7,7 +7,7 @@ use motet_syntax::ast::MAX_MISTAKES;
 use motet_syntax::{Diagnostic, Span, Syntax};
 
 use super::Environment;
-use super::errors::{Contradiction, NotAFact};
+use super::diagnostics::{Contradiction, NotAFact};
 use crate::declare::elaborator::Elaborator;
 use crate::declare::{Library, MAX_INITIALLY, MAX_PATTERNS};
 use crate::ir::{Base, Entity, Fact, Fluent, Term};

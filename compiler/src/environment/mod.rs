@@ -2,7 +2,7 @@
 //! then shared by all policies that are checked against it.
 
 pub(crate) mod base_pose_facts;
-mod errors;
+mod diagnostics;
 mod initial_state;
 mod scene_facts;
 
@@ -21,7 +21,7 @@ use crate::declare::Library;
 use crate::facts::{ANY, Cause, FactKey, FactStore, TruthSet, arg};
 use crate::ir::{Entities, Entity, Fact, Fluent, Kind, ROBOT, Term};
 
-pub(crate) use errors::CODES;
+pub(crate) use diagnostics::CODES;
 
 /// Entities and facts at the start.
 #[derive(Clone, Debug)]

@@ -6,7 +6,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use smol_str::SmolStr;
 
 use super::Environment;
-use super::errors::{TakenName, TooManyEntities, UnknownKind};
+use super::diagnostics::{TakenName, TooManyEntities, UnknownKind};
 use crate::declare::Library;
 use crate::declare::name::near;
 use crate::ir::{Entities, Entity, Fact, Fluent, Kind, MAX_ENTITIES, ROBOT, START, Term, USER};

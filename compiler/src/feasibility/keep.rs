@@ -5,8 +5,8 @@ use motet_geometry::planning::{KeptRegion, MotionAnswer, MotionQuery};
 use motet_syntax::Related;
 use smol_str::{SmolStr, format_smolstr};
 
+use super::diagnostics::BrokenAtStart;
 use super::domain::{MotionChecker, PossibleWorld, Worlds};
-use super::errors::BrokenAtStart;
 use crate::ir::{BlockSlot, Call, Condition, Entity, Keep, StepId, StepKind, Term, When};
 
 /// Regions that rules forbid in a possible world, and the reason why the region of one is left to the run.

@@ -8,8 +8,8 @@
 //!
 //! Guarded by `compiler/tests/compiler/feasibility.rs` and `tests/tests/it/dynamic.rs`.
 
+pub(crate) mod diagnostics;
 mod domain;
-pub(crate) mod errors;
 mod geometry;
 mod keep;
 mod motion;

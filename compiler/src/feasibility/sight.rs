@@ -7,7 +7,7 @@ use motet_geometry::planning::{
 use motet_robots::scene::Entity;
 use motet_syntax::Diagnostic;
 
-use super::errors::SightDisagrees;
+use super::diagnostics::SightDisagrees;
 use super::geometry::{Fingerprinted, Geometry};
 
 /// Margin by which an entity has to be beyond the range of the camera, in m: its head moves.

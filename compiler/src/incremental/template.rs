@@ -12,7 +12,7 @@ use crate::environment::Environment;
 use crate::ir::{Base, Condition, Fluent, Program, Rewrite, Step, StepId, StepKind, Substitution, Term};
 use crate::prove::evaluation::CallFrame;
 use crate::resolve::ResolvedStep;
-use crate::resolve::errors::Recursion;
+use crate::resolve::diagnostics::Recursion;
 use crate::session::Session;
 
 /// A policy with open parameters.

@@ -6,7 +6,7 @@ use motet_syntax::{Diagnostic, Span};
 use rustc_hash::FxHashSet;
 use smol_str::SmolStr;
 
-use super::errors::{
+use super::diagnostics::{
     Ambiguous, BeyondRange, EndsCleanup, Missing, NotObservable, NotProvided, OtherRobot, ResourceConflict,
     UnknownRobot, Unused,
 };

@@ -2,7 +2,7 @@
 
 use motet_syntax::Diagnostic;
 
-use super::errors::{EmptyBlock, TooLong};
+use super::diagnostics::{EmptyBlock, TooLong};
 use crate::declare::Library;
 use crate::ir::{Block, Program, Reaction, StepKind};
 

@@ -2,8 +2,8 @@
 //! bounds, and what is written but not meant.
 
 mod capabilities;
+pub(crate) mod diagnostics;
 mod durations;
-pub(crate) mod errors;
 
 pub(crate) use self::capabilities::check_robot_name;
 pub(crate) use self::durations::of_block as bounds_of;

@@ -8,7 +8,7 @@ use crate::declare::{Library, PrimitiveDef};
 use crate::environment::Environment;
 use crate::feasibility::{MotionVerdict, MotionVerdicts};
 use crate::ir::{BlockSlot, Call, Program, StepId, StepKind, Term};
-use crate::prove::errors::DeferredToRun;
+use crate::prove::diagnostics::DeferredToRun;
 use crate::prove::evaluation::CallFrame;
 use crate::prove::{NeedVerdict, Proof, Prover};
 

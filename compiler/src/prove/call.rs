@@ -4,8 +4,8 @@ use motet_syntax::{Diagnostic, Mistake, Severity, Span};
 use smallvec::SmallVec;
 
 use super::assume::Outcome;
+use super::diagnostics::{Refuted, Stale};
 use super::effects::{Certainty, FactChange, PerceptionLifetime, weaken};
-use super::errors::{Refuted, Stale};
 use super::evaluation::{CallFrame, MAX_ALIASES};
 use super::{CertainFact, Mode, NeedVerdict, NeedVerdicts, Problem, Prover};
 use crate::analysis::{Domain, Enclosing};

@@ -8,7 +8,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::assume::Outcome;
 use super::collector::Collector;
-use super::errors::{Conflict, NeverCaught, TooDeep, Unreached};
+use super::diagnostics::{Conflict, NeverCaught, TooDeep, Unreached};
 use super::evaluation::CallFrame;
 use super::{MAX_FIXPOINTS, PolicyEnd, Prover, Volatile};
 use crate::analysis::{Domain, Enclosing, Exit, Loop, Round};

@@ -4,7 +4,7 @@ use motet_syntax::ast::CompareOp;
 use motet_syntax::{Diagnostic, Mistake, Span};
 use smol_str::{SmolStr, format_smolstr};
 
-use super::errors::GoalRefuted;
+use super::diagnostics::GoalRefuted;
 use super::evaluation::CallFrame;
 use super::{GoalVerdict, Mode, PolicyEnd, Problem, Prover};
 use crate::declare::NeedDef;

@@ -5,10 +5,10 @@ use motet_syntax::ast::PrimitiveKind;
 use motet_syntax::{Diagnostic, Span};
 
 use super::assume::mentions;
-use super::effects::FactChange;
-use super::errors::{
+use super::diagnostics::{
     EndsHolding, HidesUnsafe, HopelessRetry, LeftOpen, ReactionBreaks, Redundant, Unwatched,
 };
+use super::effects::FactChange;
 use super::evaluation::CallFrame;
 use super::{Mode, NeedVerdict, PolicyEnd, Problem, Prover};
 use crate::declare::{NeedDef, PrimitiveDef};

@@ -11,9 +11,9 @@
 mod assume;
 mod call;
 mod collector;
+pub(crate) mod diagnostics;
 mod domain;
 pub(crate) mod effects;
-pub(crate) mod errors;
 pub(crate) mod evaluation;
 mod explanation;
 mod lints;
@@ -30,8 +30,8 @@ use smallvec::SmallVec;
 pub(crate) use self::assume::mentions;
 
 use self::collector::Collector;
+use self::diagnostics::TooDeep;
 use self::effects::{FactChange, PerceptionLifetime};
-use self::errors::TooDeep;
 use self::evaluation::CallFrame;
 use self::suspended::{ProofInput, ProofTarget};
 use self::symbols::Symbols;

@@ -5,8 +5,8 @@ use motet_syntax::{Diagnostic, Mistake as _};
 
 use super::assume::{Outcome, mentions};
 use super::collector::Collector;
+use super::diagnostics::{BodyFires, NeverFires};
 use super::effects::FactChange;
-use super::errors::{BodyFires, NeverFires};
 use super::evaluation::CallFrame;
 use super::{Mode, Prover, Volatile, Watched};
 use crate::analysis::{Domain, Enclosing};

@@ -7,15 +7,15 @@ use motet_syntax::{Span, Syntax};
 use smallvec::{SmallVec, smallvec};
 use smol_str::SmolStr;
 
-use super::errors::{
+use super::diagnostics::{
     EmptyList, IgnoredArgument, NoMotion, NoResult, PoseForEntity, Recursion, UnknownPrimitive,
 };
 use super::result::PolicyResult;
 use super::step::StepResolver;
 use super::step_suggestion::suggested_step;
 use crate::declare::PrimitiveDef;
+use crate::declare::diagnostics::{BadDeclaration, MissingArgument, TooManyArguments, UnknownParameter};
 use crate::declare::elaborator::{Expected, ValueRole};
-use crate::declare::errors::{BadDeclaration, MissingArgument, TooManyArguments, UnknownParameter};
 use crate::declare::library::ParamDef;
 use crate::declare::name::{list, near};
 use crate::declare::{notation, words};

@@ -7,7 +7,7 @@
 //! Guarded by the pages in `compiler/codes`, which `compiler/tests/compiler/explain.rs` runs.
 
 mod call;
-pub(crate) mod errors;
+pub(crate) mod diagnostics;
 mod path;
 mod result;
 mod step;

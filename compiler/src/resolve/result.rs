@@ -7,7 +7,7 @@ use motet_syntax::ast::{End, EndKind, Expr, Name, Policy, Reaction, Step, StepKi
 use smallvec::SmallVec;
 use smol_str::SmolStr;
 
-use super::errors::{MissingResult, ReactionResult, UnwantedResult};
+use super::diagnostics::{MissingResult, ReactionResult, UnwantedResult};
 use super::step::StepResolver;
 use crate::declare::elaborator::{Expected, ValueRole};
 use crate::declare::unbound::Unbound;

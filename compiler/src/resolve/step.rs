@@ -9,11 +9,11 @@ use smallvec::{SmallVec, smallvec};
 use smol_str::{SmolStr, format_smolstr};
 
 use super::ResolvedStep;
-use super::errors::{NoReason, Shadows, TooManySteps};
+use super::diagnostics::{NoReason, Shadows, TooManySteps};
 use super::path::{Fork, without_value};
 use super::result::{PolicyResult, stands_for_itself};
+use crate::declare::diagnostics::{NotACondition, UnknownFailure};
 use crate::declare::elaborator::{Elaborator, Expected, ValueRole};
-use crate::declare::errors::{NotACondition, UnknownFailure};
 use crate::declare::name::{Scope, ScopeMark, list, near};
 use crate::declare::unbound::Unbound;
 use crate::ir::{self, Binding, BindingId, BlockSlot, Condition, Program, StepId, StepPosition, Term, Ty};
@@ -171,7 +171,7 @@ impl<'a> StepResolver<'a> {
     /// Resolves a block, whose names stay visible.
     pub(super) fn block(&mut self, block: &Block, parent: Option<StepId>, slot: BlockSlot) -> ir::Block {
         if self.depth >= MAX_DEPTH {
-            self.elaborator.report(motet_syntax::errors::too_deep(block.span, MAX_DEPTH));
+            self.elaborator.report(motet_syntax::diagnostics::too_deep(block.span, MAX_DEPTH));
             return Vec::new();
         }
         self.depth += 1;

@@ -4,7 +4,7 @@ use motet_syntax::ast::{Arg, Do, Expr, ExprKind};
 use motet_syntax::unit::{Dimension, Unit, parse_quantity};
 use motet_syntax::{Edit, Fix, Syntax, print};
 
-use super::errors::StepSuggestion;
+use super::diagnostics::StepSuggestion;
 use crate::declare::Library;
 use crate::declare::words::{self, Meaning};
 

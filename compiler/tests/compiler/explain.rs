@@ -1,6 +1,6 @@
 //! Pages of `motet explain`: examples under "Wrong" raise the code of the page; those under "Right" and "Near
 //! miss" raise neither that code nor any error; every code has a page, and every page a code. Guards all
-//! `errors.rs`.
+//! `diagnostics.rs`.
 
 use std::collections::BTreeSet;
 

@@ -6,7 +6,7 @@ use motet_syntax::Diagnostic;
 use smol_str::SmolStr;
 
 use crate::MAX_ARITY;
-use crate::errors::{Unsupported, WrongName};
+use crate::diagnostics::{Unsupported, WrongName};
 use crate::formula::{self, Action, Literal, Scope, literal, literals};
 use crate::s_expression::SExpr;
 use crate::typed::{self, DomainNames, ListItem, TypedName};

@@ -4,7 +4,7 @@
 use motet_syntax::{Diagnostic, Span};
 use smol_str::SmolStr;
 
-use crate::errors::{Unsupported, WrongName, unknown};
+use crate::diagnostics::{Unsupported, WrongName, unknown};
 use crate::s_expression::SExpr;
 use crate::typed::{self, DomainNames, ListItem, TypedName, is_type};
 

@@ -1,14 +1,14 @@
 #![doc = include_str!("../README.md")]
 
+mod diagnostics;
 mod domain;
-mod errors;
 mod formula;
 mod plan;
 mod s_expression;
 mod typed;
 mod write;
 
-pub use errors::CODES;
+pub use diagnostics::CODES;
 
 use motet_syntax::ast::File;
 use motet_syntax::{Diagnostic, FileId, Severity, Source, print};

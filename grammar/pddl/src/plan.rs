@@ -5,8 +5,8 @@ use motet_syntax::{Diagnostic, Source, Span};
 use smol_str::SmolStr;
 
 use crate::PddlSource;
+use crate::diagnostics::{WrongName, unknown};
 use crate::domain::{Domain, Problem};
-use crate::errors::{WrongName, unknown};
 use crate::s_expression::{self, SExpr};
 
 /// A step of a plan.

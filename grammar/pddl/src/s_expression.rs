@@ -2,12 +2,12 @@
 //! from here on.
 
 use motet_syntax::ast::MAX_NESTING;
-use motet_syntax::errors::too_deep;
+use motet_syntax::diagnostics::too_deep;
 use motet_syntax::{Diagnostic, Span};
 use smol_str::SmolStr;
 
 use crate::PddlSource;
-use crate::errors::Malformed;
+use crate::diagnostics::Malformed;
 
 /// A word or a list.
 #[derive(Clone, Debug)]

@@ -4,7 +4,7 @@ use indexmap::IndexMap;
 use motet_syntax::{Diagnostic, Span};
 use smol_str::SmolStr;
 
-use crate::errors::{Unsupported, WrongName, unknown};
+use crate::diagnostics::{Unsupported, WrongName, unknown};
 use crate::s_expression::SExpr;
 
 /// The type above all others, which what has no type is of.

@@ -1,5 +1,5 @@
-//! Diagnostics of all stages: one struct and one code for each mistake (in the stage's `errors.rs`), turned
-//! into one flat [`Diagnostic`]. Rendering is in [`crate::render`].
+//! Diagnostics of all stages: one struct and one code for each mistake, in the stage's `diagnostics.rs`,
+//! turned into one flat [`Diagnostic`]. Rendering is in [`crate::render`].
 
 use smol_str::SmolStr;
 
@@ -28,7 +28,7 @@ impl Severity {
     }
 }
 
-/// A diagnostic code, `M0201`. Each is declared once, in the `errors.rs` of the stage that raises it.
+/// A diagnostic code, `M0201`. Each is declared once, in the `diagnostics.rs` of the stage that raises it.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
 pub struct Code(pub &'static str);
 

@@ -5,7 +5,7 @@
 pub mod arbitrary;
 pub mod ast;
 pub mod diagnostic;
-pub mod errors;
+pub mod diagnostics;
 mod format;
 pub mod json;
 pub mod located;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use crate::ast::{File, MAX_BYTES};
 use crate::diagnostic::Diagnostic;
-use crate::errors::{self, IgnoredPart, IgnoredProse, NoDocument, NotUtf8, TooLarge};
+use crate::diagnostics::{self, IgnoredPart, IgnoredProse, NoDocument, NotUtf8, TooLarge};
 use crate::located::{Located, end_of_value};
 use crate::source::{FileId, Source, Span, Syntax};
 use crate::text::lexer::{Token, TokenKind, Tokens, tokens};
@@ -114,7 +114,7 @@ fn whole(document: &str, file: FileId) -> Parsed {
         }
     };
     // It is refused, and what was read before the limit would take as long to check as a document within it.
-    let file = if errors::is_cut(&diagnostics) { File::default() } else { file };
+    let file = if diagnostics::is_cut(&diagnostics) { File::default() } else { file };
     Parsed { file, syntax, text: Arc::default(), diagnostics, written }
 }
 

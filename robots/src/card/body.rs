@@ -5,7 +5,9 @@ use motet_syntax::unit::Dimension;
 use motet_syntax::{Diagnostic, FileId, Source, Span, suggest};
 use smol_str::SmolStr;
 
-use super::errors::{BeyondLimit, NoArm, NoFile, NoFolder, NoPlace, NotInUrdf, SameAxis, WrongDimension};
+use super::diagnostics::{
+    BeyondLimit, NoArm, NoFile, NoFolder, NoPlace, NotInUrdf, SameAxis, WrongDimension,
+};
 use super::model::ModelSpec;
 use super::quantity::{QuantityReader, Sign, units_of};
 use super::read::CardReader;

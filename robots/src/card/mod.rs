@@ -5,9 +5,9 @@
 //! a first card for a URDF.
 
 mod body;
+mod diagnostics;
 mod draft;
 mod draft_parts;
-mod errors;
 pub mod model;
 mod other_arms;
 mod quantity;
@@ -17,8 +17,8 @@ pub mod wire;
 
 pub(crate) use body::JointPosition;
 pub use body::{ModelFile, fit, missing};
+pub use diagnostics::CODES;
 pub use draft::{DraftInputs, DraftStance, draft};
-pub use errors::CODES;
 pub use model::{BoundSpan, CardSpans, *};
 pub use other_arms::other_arms;
 pub use read::read;

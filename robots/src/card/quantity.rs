@@ -3,7 +3,7 @@
 use motet_syntax::unit::{Dimension, Unit};
 use motet_syntax::{Diagnostic, FileId, Span};
 
-use super::errors::{BadQuantity, EmptyRange, OutOfRange, WrongDimension};
+use super::diagnostics::{BadQuantity, EmptyRange, OutOfRange, WrongDimension};
 use super::model::Range;
 use super::wire;
 use super::wire::{TomlSpanned, WrittenQuantity};

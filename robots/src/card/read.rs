@@ -7,7 +7,7 @@ use motet_syntax::{Diagnostic, FileId, Severity, Source, Span, suggest};
 use smol_str::SmolStr;
 use toml::de::DeTable;
 
-use super::errors::{
+use super::diagnostics::{
     BadName, ListedTwice, NotAResource, NotToml, ResourceCycle, TakenName, TakenNumber, UnknownResource,
 };
 use super::model::{

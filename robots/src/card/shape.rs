@@ -8,7 +8,7 @@ use motet_syntax::{Diagnostic, FileId, Span, suggest};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::errors::{MissingKey, UnknownKey, UnknownWord, WrongType};
+use super::diagnostics::{MissingKey, UnknownKey, UnknownWord, WrongType};
 use super::wire::schema;
 
 /// Diagnostics for the parts of a document that do not fit the schema of a card.

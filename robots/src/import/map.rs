@@ -5,7 +5,7 @@ use motet_stdlib::lang::kinds;
 use motet_syntax::{Diagnostic, FileId, Severity, Source, Span, suggest};
 use smol_str::format_smolstr;
 
-use super::errors::{MapImage, MapValue, NotImported, TooManySolids};
+use super::diagnostics::{MapImage, MapValue, NotImported, TooManySolids};
 use super::solid::{MAX_SOLIDS, entity};
 use super::{raster, rectangle};
 use crate::scene::{EntityShape, Placement, Scene};

@@ -13,14 +13,14 @@
 //! assert_eq!(scene.entities["wall_1"].pose.unwrap().xyz, [-0.5, 0.25, 1.0]);
 //! ```
 
-mod errors;
+mod diagnostics;
 mod map;
 mod raster;
 mod rectangle;
 mod sdf;
 mod solid;
 
-pub use errors::CODES;
+pub use diagnostics::CODES;
 pub use map::{MapFile, MapMode, MapOptions, UnknownCells, read_map};
 pub use raster::MAX_CELLS;
 pub use sdf::read_sdf;

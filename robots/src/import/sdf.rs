@@ -8,7 +8,7 @@ use motet_syntax::{Diagnostic, FileId, Severity, Source, Span};
 use roxmltree::Node;
 use smol_str::{SmolStr, format_smolstr};
 
-use super::errors::{BadSdf, NotImported, TooManySolids};
+use super::diagnostics::{BadSdf, NotImported, TooManySolids};
 use super::solid::{self, MAX_SOLIDS};
 use crate::quaternion::{compose, to_rpy};
 use crate::scene::{EntityShape, Placement, Scene};

@@ -9,7 +9,7 @@ use motet_syntax::render::is_steering;
 use motet_syntax::{Diagnostic, Span};
 use smol_str::SmolStr;
 
-use super::errors::{
+use super::diagnostics::{
     BadClearance, BadId, BadZone, EmptyName, FieldTwice, NotPositive, TooFar, TooWideAngle, ZeroAxis,
 };
 use super::model::{CameraView, Entity, EntityShape, EntitySpans, Placement, Scene, Travel};

@@ -12,7 +12,7 @@
 
 mod check;
 mod colour;
-mod errors;
+mod diagnostics;
 pub mod model;
 mod outline;
 mod quantity;
@@ -24,7 +24,7 @@ mod write;
 
 pub use check::fit;
 pub use colour::{Colour, PERSON_COLOUR, Palette, colour};
-pub use errors::CODES;
+pub use diagnostics::CODES;
 pub use model::{normal, *};
 pub use outline::{Outline, PLACED_BESIDE_M, PLACED_NEAR_M, PLACED_TOLERANCE_M, PlacedOutline};
 pub use read::read;

@@ -10,7 +10,7 @@ use motet_syntax::{Diagnostic, FileId, Source, Span, suggest};
 use smol_str::SmolStr;
 
 use super::check::NumberReader;
-use super::errors::{
+use super::diagnostics::{
     BadId, DuplicateId, Frame, GripOfNothing, HeldElsewhere, ReservedId, SupportCycle, TooManyEntities,
     UnknownEntity, Version,
 };

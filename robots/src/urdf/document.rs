@@ -8,7 +8,7 @@
 use motet_syntax::{Diagnostic, FileId, Source, Span};
 use roxmltree::{Error, Node, ParsingOptions};
 
-use super::errors::{
+use super::diagnostics::{
     BadNumber, ImpossibleNumber, LeftoverXacro, MissingPart, NotXml, TooMuch, XmlDialect, XmlPart,
 };
 use super::model::Pose;

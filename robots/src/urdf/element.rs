@@ -4,8 +4,8 @@
 use motet_syntax::{Span, suggest};
 use roxmltree::Node;
 
+use super::diagnostics::{BadShape, EmptyLimits, HeldJoint, IdleMimic, UnknownJointType, XmlPart, ZeroAxis};
 use super::document::{UrdfReader, child, children};
-use super::errors::{BadShape, EmptyLimits, HeldJoint, IdleMimic, UnknownJointType, XmlPart, ZeroAxis};
 use super::model::{JointKind, JointLimits, Link, LinkShape, Pose, UrdfShape};
 
 /// Name with its span.

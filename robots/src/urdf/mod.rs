@@ -15,17 +15,17 @@
 //! assert!(robot.unwrap().joint("panda_joint1").is_some());
 //! ```
 
+mod diagnostics;
 mod document;
 mod element;
-mod errors;
 pub mod model;
 mod read;
 mod surplus;
 mod tree;
 
+pub use diagnostics::CODES;
+pub(crate) use diagnostics::{BadNumber, ImpossibleNumber, XmlDialect, XmlPart};
 pub(crate) use document::{XmlDocument, XmlSpans, child, children, from_rpy, is_own, numbers};
-pub use errors::CODES;
-pub(crate) use errors::{BadNumber, ImpossibleNumber, XmlDialect, XmlPart};
 pub use model::*;
 pub use read::read;
 pub(crate) use surplus::unknown;

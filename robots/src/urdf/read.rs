@@ -4,9 +4,9 @@ use motet_syntax::{Diagnostic, FileId, Severity, Source, Span};
 use roxmltree::Node;
 use rustc_hash::FxHashMap;
 
+use super::diagnostics::{LeftoverXacro, NoLink, NotUrdf, TakenName, XmlDialect};
 use super::document::{UrdfReader, XmlDocument, XmlSpans, children};
 use super::element::{RawJoint, SpannedName};
-use super::errors::{LeftoverXacro, NoLink, NotUrdf, TakenName, XmlDialect};
 use super::model::{Link, Urdf};
 use super::surplus::surplus;
 use super::tree;

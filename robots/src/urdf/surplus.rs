@@ -4,8 +4,8 @@
 use motet_syntax::{Diagnostic, suggest};
 use roxmltree::Node;
 
+use super::diagnostics::{Repeated, UnknownAttribute, UnknownElement};
 use super::document::{XmlSpans, children, is_own};
-use super::errors::{Repeated, UnknownAttribute, UnknownElement};
 
 /// Allowed content of an element.
 struct ElementRule {

@@ -4,10 +4,10 @@
 use motet_syntax::{Diagnostic, suggest};
 use rustc_hash::FxHashMap;
 
-use super::element::{RawJoint, SpannedName};
-use super::errors::{
+use super::diagnostics::{
     EmptyLimits, LinkCycle, MimicCycle, SeveralRoots, TwoParents, UnknownLink, UnknownMimic,
 };
+use super::element::{RawJoint, SpannedName};
 use super::model::{Joint, JointLimits, Link, Mimic, Urdf};
 
 /// Tolerance for the limits of a follower.

@@ -1,6 +1,6 @@
 #![doc = include_str!("../README.md")]
 
-mod beside;
+mod background_work;
 pub mod builtin;
 pub mod dialogue;
 pub mod inteliplan;
@@ -13,5 +13,5 @@ mod reply_verdict;
 pub mod runtime_check;
 pub mod vision;
 
-pub use beside::{CHECK_WITHIN, READ_WITHIN};
+pub use background_work::{CHECK_WITHIN, READ_WITHIN};
 pub use planner::{Builtin, BuiltinBeside, PlanRequest, Planner, RemainingSteps, Wait};

@@ -10,7 +10,7 @@ use motet_runtime::CameraImage;
 use motet_runtime::memory::Memory;
 use smol_str::SmolStr;
 
-use crate::beside::{CHECK_WITHIN, WorkBeside, WorkProgress};
+use crate::background_work::{BackgroundWork, CHECK_WITHIN, WorkProgress};
 use crate::builtin::{self, PlanError, PlannedRequest};
 use crate::runtime_check::CheckMode;
 use motet_requests::RequestContext;
@@ -148,7 +148,7 @@ impl OwnedRequest {
 #[derive(Default)]
 pub struct BuiltinBeside {
     /// Policy that is being planned, or none where there is none.
-    coming: Option<WorkBeside<Option<String>>>,
+    coming: Option<BackgroundWork<Option<String>>>,
 }
 
 impl Planner for BuiltinBeside {
@@ -160,7 +160,7 @@ impl Planner for BuiltinBeside {
     fn begin(&mut self, ask: &PlanRequest<'_>) -> bool {
         let owned = OwnedRequest::of(ask);
         let plan = move || owned.with(|ask| Builtin.plan(ask).ok().map(|answered| answered.planned.text));
-        self.coming = Some(WorkBeside::start(CheckMode::Beside, CHECK_WITHIN, plan));
+        self.coming = Some(BackgroundWork::start(CheckMode::Beside, CHECK_WITHIN, plan));
         true
     }
 

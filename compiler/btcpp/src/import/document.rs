@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use motet_syntax::{FileId, Source, Span};
 use roxmltree::{Document, Error, Node, ParsingOptions};
 
-use crate::errors::NotTree;
+use crate::diagnostics::NotTree;
 
 /// Greatest number of XML nodes of a document.
 pub const MAX_XML_NODES: u32 = 200_000;

@@ -16,7 +16,7 @@ use motet_syntax::{Diagnostic, FileId, Severity, Source, Span};
 use roxmltree::Node;
 use smol_str::SmolStr;
 
-use crate::errors::{NoEqual, NotTree, WrongLeaf};
+use crate::diagnostics::{NoEqual, NotTree, WrongLeaf};
 use crate::leaves::Leaves;
 use crate::names::GOAL;
 use document::{Places, elements, kind};

@@ -10,7 +10,7 @@ use crate::ast::{
     MAX_STEPS, Name, Policy, Reaction, Step, StepKind, TypeExpr, When,
 };
 use crate::diagnostic::Diagnostic;
-use crate::errors::{BadName, BadValue, MissingKey, ReservedKey, TooDeep, TooManySteps, UnknownKey};
+use crate::diagnostics::{BadName, BadValue, MissingKey, ReservedKey, TooDeep, TooManySteps, UnknownKey};
 use crate::source::{FileId, Span};
 use crate::unit::{Unit, parse_quantity};
 use crate::words;

@@ -8,7 +8,7 @@ use super::Spanned;
 use super::convert::Converter;
 use super::term::{Args, Condition, Count, Duration, Form, Manner, Pair, Relation, Term};
 use crate::ast::{self, Arg, ArithOp, Call, CompareOp, Expr, ExprKind, MAX_NESTING};
-use crate::errors::{BadValue, MissingKey, TooDeep, WrongType};
+use crate::diagnostics::{BadValue, MissingKey, TooDeep, WrongType};
 use crate::source::Span;
 use crate::text::template::{self, ReadText};
 use crate::text::{self, Origin};

@@ -38,7 +38,7 @@ pub use crate::located::{Lenient, MAX_BRACKETS, Spanned};
 
 use crate::ast::{File, Item, MAX_BYTES};
 use crate::diagnostic::{Diagnostic, Severity};
-use crate::errors::{
+use crate::diagnostics::{
     self, BadValue, DocumentKind, Empty, MissingKey, NoForm, NumberRange, TooLarge, TwoForms, UnknownKey,
     WrongType,
 };
@@ -162,7 +162,7 @@ impl PolicyDocument {
 /// Sorts the diagnostics of a document, and leaves out what is too much.
 fn in_order(found: &mut Vec<Diagnostic>) {
     found.sort_by_key(|diagnostic| diagnostic.span.start);
-    errors::limit(found);
+    diagnostics::limit(found);
 }
 
 /// Reads the policy of a tree; pointers lead into `written`.

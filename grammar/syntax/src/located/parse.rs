@@ -10,7 +10,7 @@ use rustc_hash::FxHashSet;
 use super::{Located, LocatedValue, Number};
 use crate::ast::{MAX_MISTAKES, MAX_NESTING, MAX_TOKENS};
 use crate::diagnostic::Diagnostic;
-use crate::errors::{DuplicateKey, JsonSyntax, NumberRange, SyntaxFault, TooDeep, TooManyTokens};
+use crate::diagnostics::{DuplicateKey, JsonSyntax, NumberRange, SyntaxFault, TooDeep, TooManyTokens};
 use crate::source::{FileId, Span};
 
 /// Greatest depth of brackets in a JSON document. One block of a policy takes up to four: the handlers of a

@@ -16,7 +16,7 @@ use serde_json::Value as Json;
 
 use crate::ast::{MAX_MISTAKES, MAX_STEPS};
 use crate::diagnostic::{Diagnostic, Edit, Fix};
-use crate::errors::ReadShape;
+use crate::diagnostics::ReadShape;
 use crate::located::{Leaf, Located, LocatedValue, SchemaView, form_key};
 use crate::source::Span;
 use crate::words::{DEADLINE, is_bare_name};

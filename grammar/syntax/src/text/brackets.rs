@@ -4,7 +4,7 @@
 
 use super::lexer::{self, BracketFault, Token, TokenKind, tokens};
 use crate::diagnostic::Diagnostic;
-use crate::errors::TextSyntax;
+use crate::diagnostics::TextSyntax;
 use crate::source::{FileId, Span};
 
 /// The longest text whose brackets are mended, in bytes.

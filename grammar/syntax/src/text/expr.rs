@@ -9,7 +9,7 @@ use super::builder::{Builder, Children};
 use super::template::{self, ReadText};
 use super::{Origin, Pair, Rule};
 use crate::ast::{Arg, ArithOp, Call, CompareOp, Expr, ExprKind, MAX_NESTING, Name};
-use crate::errors::{NumberRange, TextSyntax, TooDeep};
+use crate::diagnostics::{NumberRange, TextSyntax, TooDeep};
 use crate::source::Span;
 use crate::unit::Unit;
 

@@ -8,7 +8,7 @@
 
 use crate::ast::{MAX_NESTING, MAX_TOKENS};
 use crate::diagnostic::Diagnostic;
-use crate::errors::{DocumentKind, Empty, TextSyntax, TooDeep, TooManyTokens};
+use crate::diagnostics::{DocumentKind, Empty, TextSyntax, TooDeep, TooManyTokens};
 use crate::render::is_steering;
 use crate::source::{FileId, Span};
 use crate::unit::number_length;

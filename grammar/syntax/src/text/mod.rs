@@ -16,7 +16,7 @@ use pest::Parser as _;
 
 use crate::ast;
 use crate::diagnostic::{Diagnostic, Edit, Fix};
-use crate::errors::ReadShape;
+use crate::diagnostics::ReadShape;
 use crate::source::{FileId, Span};
 use crate::words;
 

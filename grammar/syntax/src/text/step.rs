@@ -7,7 +7,7 @@ use crate::ast::{
     Block, Catch, CatchOn, Do, End, EndKind, Expr, ExprKind, Keep, KeepKind, MAX_NESTING, MAX_STEPS, Manner,
     Reaction, Step, StepKind, When,
 };
-use crate::errors::{TextSyntax, TooDeep, TooManySteps};
+use crate::diagnostics::{TextSyntax, TooDeep, TooManySteps};
 use crate::source::Span;
 
 impl Builder {

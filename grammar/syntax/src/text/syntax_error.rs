@@ -7,7 +7,7 @@ use super::Rule;
 use super::lexer::{Token, TokenKind, tokens};
 use super::recover::Refusal;
 use crate::diagnostic::Diagnostic;
-use crate::errors::{DocumentKind, Empty, TextSyntax, UnknownUnit};
+use crate::diagnostics::{DocumentKind, Empty, TextSyntax, UnknownUnit};
 use crate::source::{FileId, Span};
 use crate::suggest;
 use crate::unit::Unit;

@@ -8,7 +8,7 @@ use super::builder::Builder;
 use super::{MotetParser, Origin, Rule, lexer, syntax_error};
 use crate::ast::{Expr, ExprKind, TextPart};
 use crate::diagnostic::Diagnostic;
-use crate::errors::BadTextValue;
+use crate::diagnostics::BadTextValue;
 use crate::source::{FileId, Span};
 
 /// The most values of one text.

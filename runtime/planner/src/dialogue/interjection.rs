@@ -11,7 +11,7 @@ use motet_robots::scene::Scene;
 use smol_str::SmolStr;
 
 use super::{Conversation, Knowledge};
-use crate::beside::{CHECK_WITHIN, READ_WITHIN, WorkBeside};
+use crate::background_work::{BackgroundWork, CHECK_WITHIN, READ_WITHIN};
 use crate::builtin::PlannedRequest;
 use crate::model::{ReplyVerdict, judge};
 use crate::runtime_check::CheckMode;
@@ -20,7 +20,7 @@ use crate::runtime_check::CheckMode;
 pub(super) struct LineReading {
     /// Line as it was typed.
     pub(super) said: String,
-    pub(super) read: WorkBeside<LineMeaning>,
+    pub(super) read: BackgroundWork<LineMeaning>,
 }
 
 /// Meaning of a line in a run.
@@ -45,7 +45,7 @@ pub(super) struct LineRequest {
 pub(super) struct PolicyCheck {
     /// Request that it is for; none of the rest of an early start.
     pub(super) request: Option<String>,
-    pub(super) check: WorkBeside<Option<Box<PlannedRequest>>>,
+    pub(super) check: BackgroundWork<Option<Box<PlannedRequest>>>,
 }
 
 /// World of a conversation with some knowledge, without borrows.
@@ -104,7 +104,7 @@ impl LineReading {
                 })),
             }
         };
-        Self { said, read: WorkBeside::start(mode, READ_WITHIN, read) }
+        Self { said, read: BackgroundWork::start(mode, READ_WITHIN, read) }
     }
 }
 
@@ -125,7 +125,7 @@ impl PolicyCheck {
             }
             ReplyVerdict::Good { .. } | ReplyVerdict::Bad { .. } => None,
         };
-        Self { request, check: WorkBeside::start(mode, CHECK_WITHIN, check) }
+        Self { request, check: BackgroundWork::start(mode, CHECK_WITHIN, check) }
     }
 }
 
@@ -134,9 +134,9 @@ pub(super) fn answer(
     talk: &Conversation<'_>,
     (question, said): (String, String),
     mode: CheckMode,
-) -> WorkBeside<Vec<ReportedLocation>> {
+) -> BackgroundWork<Vec<ReportedLocation>> {
     let (known, scene) = (talk.known.clone(), talk.setting.scene.clone());
-    WorkBeside::start(mode, READ_WITHIN, move || {
+    BackgroundWork::start(mode, READ_WITHIN, move || {
         let scene = known.scene(&scene);
         let situation = known.situation(&scene);
         let spoken_of: Vec<SmolStr> = motet_requests::named(&question, &situation);

@@ -21,7 +21,7 @@ use super::early_start::EarlyStart;
 use super::interjection::{self, LineMeaning, LineReading, LineRequest, PolicyCheck};
 use super::problem::named_entity;
 use super::{Conversation, DialogueObserver, OnInstruction, Problem};
-use crate::beside::{WorkBeside, WorkProgress};
+use crate::background_work::{BackgroundWork, WorkProgress};
 use crate::builtin::PlannedRequest;
 use crate::runtime_check::Guard;
 use crate::{PlanRequest, Planner, RemainingSteps, Wait};
@@ -70,7 +70,7 @@ pub(super) struct LiveRun<'r, 'a> {
     /// A question of the policy that is not answered yet.
     asked: Option<(GoalId, String)>,
     /// Answers to such questions that are being read.
-    answers: VecDeque<WorkBeside<Vec<ReportedLocation>>>,
+    answers: VecDeque<BackgroundWork<Vec<ReportedLocation>>>,
     /// Locations that such answers told.
     told: Vec<ReportedLocation>,
     /// Words that the driver heard, the latest last.

@@ -15,7 +15,7 @@ use smol_str::SmolStr;
 
 use super::chat::{Finish, ModelError, News, Reply};
 use super::stream_reader::{StreamReader, StreamVerdict};
-use crate::beside::CHECK_WITHIN;
+use crate::background_work::CHECK_WITHIN;
 use crate::planned::Planned;
 use crate::reply_verdict::{ReplyVerdict, errors, judge, read};
 use crate::runtime_check::CheckMode;

@@ -13,7 +13,7 @@ use super::chat::{Finish, Message, Model, ModelError, News, Reply, Role};
 use super::chat::{ModelEvent, ModelObserver};
 use super::prose;
 use super::stream_reader::{StreamReader, StreamVerdict};
-use crate::beside::{CHECK_WITHIN, WorkBeside, WorkProgress};
+use crate::background_work::{BackgroundWork, CHECK_WITHIN, WorkProgress};
 use crate::planned::{PlanError, Planned, PlannedRequest};
 use crate::planner::{OwnedRequest, PlanRequest, Planner, RemainingSteps, Wait};
 use crate::prompt::{self, Prompt, StaticPrompt};
@@ -100,7 +100,7 @@ struct KeptParts {
 /// Policy that is being written during a run.
 enum Later {
     /// The prompt is being written, for this session.
-    Asking(Session, WorkBeside<(KeptParts, Vec<Message>)>),
+    Asking(Session, BackgroundWork<(KeptParts, Vec<Message>)>),
     /// The rest of a policy, or a policy, is being read.
     Reading(PendingRest),
 }
@@ -252,7 +252,7 @@ impl<'m> ModelPlanner<'m> {
             };
             (verdict, missed)
         };
-        let check = WorkBeside::start(CheckMode::Beside, CHECK_WITHIN, check);
+        let check = BackgroundWork::start(CheckMode::Beside, CHECK_WITHIN, check);
         let (verdict, missed) = match check.wait(|| self.listener.is_stopped()) {
             WorkProgress::Done(checked) => checked,
             WorkProgress::Coming => return self.failed(round, reply, ModelError::Cancelled),
@@ -397,7 +397,7 @@ impl Planner for ModelPlanner<'_> {
                 (ready, chat)
             })
         };
-        let written = WorkBeside::start(checks, CHECK_WITHIN, write);
+        let written = BackgroundWork::start(checks, CHECK_WITHIN, write);
         self.later = Some(Later::Asking(ask.session.clone(), written));
         self.asks_on()
     }

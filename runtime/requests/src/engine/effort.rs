@@ -5,7 +5,7 @@
 use std::cell::Cell;
 
 /// Most steps of one reading. A step is a look-up of a list, a noun, or a part of a rule.
-pub(crate) const MAX_STEPS: u32 = 2_400_000;
+pub(crate) const MAX_STEPS: u32 = 3_000_000;
 
 thread_local! {
     /// Steps that are left to the reading of this thread; `None` outside of a reading.

@@ -4,7 +4,7 @@
 use motet_syntax::{Edit, Fix, Related, Span};
 use smol_str::SmolStr;
 
-use crate::declare::errors::{did_you_mean, replace};
+use crate::declare::diagnostics::{did_you_mean, replace};
 use crate::declare::name::article;
 use crate::declare::unbound::Unbound;
 

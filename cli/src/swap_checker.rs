@@ -34,7 +34,7 @@ pub(crate) type SwapResult = Result<Value, Value>;
 type Checked = Result<Graph, Value>;
 
 /// Desk at which policies are offered to a run.
-pub(crate) struct SwapDesk {
+pub(crate) struct SwapChecker {
     opened: Arc<ProjectSession>,
     setup: DialogueSetup,
     offers: Receiver<Offer>,
@@ -43,7 +43,7 @@ pub(crate) struct SwapDesk {
     swapping: Option<Sender<SwapResult>>,
 }
 
-impl SwapDesk {
+impl SwapChecker {
     /// A desk for a project, and where to put offers. `None` without a robot.
     pub(crate) fn new(opened: Arc<ProjectSession>, options: CheckOptions) -> Option<(Self, Sender<Offer>)> {
         let setup = DialogueSetup {

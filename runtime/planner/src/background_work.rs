@@ -14,7 +14,7 @@ pub const CHECK_WITHIN: Duration = Duration::from_secs(20);
 const SLICE: Duration = Duration::from_millis(20);
 
 /// Work that is being done.
-pub(crate) struct WorkBeside<T> {
+pub(crate) struct BackgroundWork<T> {
     coming: Receiver<T>,
     /// End of the time that it has; none where it was done at once.
     until: Option<Instant>,
@@ -29,7 +29,7 @@ pub(crate) enum WorkProgress<T> {
     Late,
 }
 
-impl<T: Send + 'static> WorkBeside<T> {
+impl<T: Send + 'static> BackgroundWork<T> {
     /// Starts some work.
     pub(crate) fn start(
         mode: CheckMode,
@@ -94,14 +94,14 @@ mod tests {
     use std::sync::mpsc;
     use std::time::Duration;
 
-    use super::{WorkBeside, WorkProgress};
+    use super::{BackgroundWork, WorkProgress};
     use crate::runtime_check::CheckMode;
 
     #[test]
     fn beside_work_is_coming_until_it_is_done() {
         let (go_on, gate) = mpsc::channel::<()>();
         let work = move || gate.recv().is_ok();
-        let beside = WorkBeside::start(CheckMode::Beside, Duration::from_secs(60), work);
+        let beside = BackgroundWork::start(CheckMode::Beside, Duration::from_secs(60), work);
         assert_eq!(beside.progress(), WorkProgress::Coming);
         assert_eq!(beside.wait(|| true), WorkProgress::Coming, "a person stopped it");
         go_on.send(()).unwrap();
@@ -111,13 +111,13 @@ mod tests {
     #[test]
     fn beside_work_that_takes_too_long_is_late() {
         let (_held, gate) = mpsc::channel::<()>();
-        let beside = WorkBeside::start(CheckMode::Beside, Duration::ZERO, move || gate.recv().is_ok());
+        let beside = BackgroundWork::start(CheckMode::Beside, Duration::ZERO, move || gate.recv().is_ok());
         assert_eq!(beside.progress(), WorkProgress::Late);
     }
 
     #[test]
     fn beside_work_in_virtual_time_is_done_at_once() {
-        let beside = WorkBeside::start(CheckMode::AtOnce, Duration::ZERO, || 7);
+        let beside = BackgroundWork::start(CheckMode::AtOnce, Duration::ZERO, || 7);
         assert_eq!(beside.progress(), WorkProgress::Done(7));
     }
 }
