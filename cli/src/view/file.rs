@@ -2,6 +2,7 @@
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
+use motet_syntax::render::escaped_json;
 use sha2::{Digest as _, Sha256};
 
 use super::hub::Item;
@@ -25,7 +26,7 @@ pub(crate) fn whole(items: &[Item]) -> String {
     );
     let items: Vec<&str> = items.iter().map(|item| &*item.json).collect();
     // In a script element, `<` could begin its end.
-    let items = format!("[{}]", items.join(",\n")).replace('<', "\\u003c");
+    let items = escaped_json(&format!("[{}]", items.join(",\n"))).replace('<', "\\u003c");
     let data = format!("<script type=\"application/json\" id=\"items\">{items}</script>");
     let meta = format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">");
     HTML.replace("<!-- policy -->", &meta)
