@@ -214,7 +214,7 @@ const HOSTILE = [
   "' onmouseover='hit()",
   "&lt;b&gt;",
   "__proto__",
-  "\u202eevil",
+  "&#8238;evil",
 ];
 
 /** A hundred hostile names, texts and failures are shown as text. */
@@ -227,7 +227,7 @@ async function hostile() {
   }
   const [room, policy, faults_file, record] = ["room.json", "p.motet", "faults.json", "hostile"].map((name) => join(folder, name));
   writeFileSync(room, JSON.stringify(scene));
-  const says = HOSTILE.map((text) => `    say(${JSON.stringify(text.replaceAll("{", "(").replaceAll("}", ")").replaceAll("\u202e", ""))})`);
+  const says = HOSTILE.map((text) => `    say(${JSON.stringify(text.replaceAll("{", "(").replaceAll("}", ")"))})`);
   writeFileSync(policy, `policy hostile for hsr {\n${says.join("\n")}\n    go(kitchen_table)\n}\n`);
   const text = "<img src=x onerror=hit()>";
   writeFileSync(faults_file, JSON.stringify({ calls: [{ primitive: "go", then: { fails: { kind: "blocked", text } } }] }));
