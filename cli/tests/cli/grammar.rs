@@ -105,6 +105,25 @@ fn probe_tells_a_server_that_obeys_from_one_that_does_not() {
     let held = r#"{"choices": [{"message": {"role": "assistant", "content": "{\"probe\": \"held\"}"}}]}"#;
     let ran = place.run(&format!("grammar probe {} --dialect vllm", server("200 OK", held)));
     assert_eq!((ran.code, ran.stdout.contains("enforces the grammar")), (Some(0), true), "{}", ran.stderr);
+    for (dialect, of_text) in [
+        ("openai", r#"{"choices": [{"message": {"role": "assistant", "content": TEXT}}]}"#),
+        ("mistralrs", r#"{"choices": [{"message": {"role": "assistant", "content": TEXT}}]}"#),
+        (
+            "openai-responses",
+            r#"{"status": "completed", "output": [{"content": [{"type": "output_text", "text": TEXT}]}]}"#,
+        ),
+        ("anthropic", r#"{"type": "message", "content": [{"type": "text", "text": TEXT}]}"#),
+        ("gemini", r#"{"candidates": [{"content": {"parts": [{"text": TEXT}]}, "finishReason": "STOP"}]}"#),
+    ] {
+        for (text, code, says) in [
+            (r#""{\"probe\": \"held\"}""#, 0, "enforces the grammar"),
+            (r#""free""#, 1, "answered `free`"),
+        ] {
+            let (address, _) = scripted("200 OK", vec![of_text.replace("TEXT", text)]);
+            let ran = place.run(&format!("grammar probe {address} --dialect {dialect}"));
+            assert!(ran.code == Some(code) && ran.stdout.contains(says), "{dialect}: {}{}", ran.stdout, ran.stderr);
+        }
+    }
     let free = r#"{"message": {"role": "assistant", "content": "free"}}"#;
     let ran = place.run(&format!("grammar probe {} --dialect ollama", server("200 OK", free)));
     assert_eq!(

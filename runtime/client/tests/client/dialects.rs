@@ -1,7 +1,7 @@
 //! Dialects of servers by recorded exchanges. The recordings are written after the public references: of
 //! OpenAI (`/v1/responses` with its streaming events, custom tools, and `/v1/chat/completions`), of Anthropic
 //! (`/v1/messages`, streaming, structured outputs, stop reasons), of the Gemini API (`generateContent`,
-//! finish reasons, `UsageMetadata`) and of mistral.rs (`grammar` of chat completions).
+//! finish reasons, `UsageMetadata`) and of mistral.rs (chunks, usage and errors of chat completions).
 
 use std::time::Duration;
 
@@ -92,13 +92,13 @@ fn dialect_streams_are_read_to_their_end_with_their_tokens() {
         (Dialect::Anthropic, include_str!("recordings/messages.sse")),
         (Dialect::Anthropic, include_str!("recordings/messages_tool.sse")),
         (Dialect::Gemini, include_str!("recordings/gemini.sse")),
-        (Dialect::MistralRs, include_str!("recordings/chat.sse")),
+        (Dialect::MistralRs, include_str!("recordings/mistralrs.sse")),
         (Dialect::OpenAi, include_str!("recordings/chat.sse")),
     ] {
         assert_eq!(check(dialect, recording, POLICY, Ok(Finish::Stop)), usage, "{dialect:?}");
         // A stream that breaks off in its middle has no end.
         let cut = recording.find("motet\\\":").unwrap() + 40;
-        let end = recording.get(..cut).unwrap().rfind("\n\n").unwrap() + 2;
+        let end = recording.get(..cut).unwrap().rfind("\n\n").map_or(0, |at| at + 2);
         let cut = recording.get(..end).unwrap();
         let got = exchange(events(cut), |settings| settings, dialect);
         assert!(matches!(got.end, Err(ModelError::CutOff { .. })), "{dialect:?}: {got:?}");
@@ -114,6 +114,7 @@ fn dialect_limits_refusals_and_errors_are_told_apart() {
     check(Dialect::OpenAiResponses, include_str!("recordings/responses_incomplete.sse"), "{\"mot", limit);
     check(Dialect::Anthropic, include_str!("recordings/messages_limit.sse"), "{\"mot", limit);
     check(Dialect::Gemini, include_str!("recordings/gemini_limit.sse"), "{\"mot", limit);
+    check(Dialect::MistralRs, include_str!("recordings/mistralrs_limit.sse"), "{\"mot", limit);
     check(Dialect::OpenAiResponses, include_str!("recordings/responses_refusal.sse"), "", sorry);
     check(Dialect::OpenAi, include_str!("recordings/chat_refusal.sse"), "", sorry);
     let refusal = include_str!("recordings/messages_refusal.sse");
@@ -124,6 +125,8 @@ fn dialect_limits_refusals_and_errors_are_told_apart() {
     let failed = include_str!("recordings/responses_failed.sse");
     check(Dialect::OpenAiResponses, failed, "", Err("failed to generate a response"));
     check(Dialect::Anthropic, include_str!("recordings/messages_error.sse"), "", Err("Overloaded"));
+    let failed = include_str!("recordings/mistralrs_error.sse");
+    check(Dialect::MistralRs, failed, "", Err("The model failed to process the request."));
     for (status, body, dialect, words) in [
         (
             "529 Site is overloaded",
@@ -155,6 +158,8 @@ fn dialect_whole_answers_have_their_text() {
         (Dialect::OpenAiResponses, include_str!("recordings/responses.json")),
         (Dialect::Anthropic, include_str!("recordings/messages.json")),
         (Dialect::Anthropic, include_str!("recordings/messages_tool.json")),
+        (Dialect::Gemini, include_str!("recordings/gemini.json")),
+        (Dialect::MistralRs, include_str!("recordings/mistralrs.json")),
     ] {
         let whole: Value = serde_json::from_str(answer).unwrap();
         assert_eq!(content(Some(dialect), &whole).as_deref(), Some(POLICY), "{dialect:?}");
@@ -277,6 +282,7 @@ fn dialect_requests_are_those_of_the_reference() {
         &heard,
         &["post /v1/chat/completions "],
         &[
+            ("/messages/1/content/1", json!({"type": "image_url", "image_url": {"url": url}})),
             ("/grammar/type", json!("json_schema")),
             ("/grammar/value/type", json!("object")),
             ("/stream_options/include_usage", json!(true)),
