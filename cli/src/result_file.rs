@@ -2,11 +2,10 @@
 //! checksum of it, so that a file that was begun can be continued without doing anything twice.
 
 use std::collections::VecDeque;
-use std::fs::{File, OpenOptions};
-use std::io::{BufRead as _, BufReader, Seek as _, SeekFrom, Write as _};
 use std::path::{Path, PathBuf};
 
 use crc32fast::Hasher;
+use motet::line_file::LineFile;
 use motet_project::files::Bytes;
 use serde_json::{Map, Value, json};
 
@@ -17,7 +16,7 @@ use crate::flags::ResultArgs;
 /// File of results, open at its end.
 pub(crate) struct ResultFile {
     path: PathBuf,
-    file: File,
+    file: LineFile,
     /// Checksum of the flags that decide the results.
     seed: Hasher,
     /// Results that the file has already.
@@ -40,7 +39,7 @@ impl ResultFile {
         let mut seed = Hasher::new();
         seed.update(flags.as_bytes());
         if !args.r#continue {
-            let file = File::create_new(path).map_err(|source| match source.kind() {
+            let file = LineFile::create(path).map_err(|source| match source.kind() {
                 std::io::ErrorKind::AlreadyExists => CliError::Advised {
                     problem: format!("the file `{}` exists", path.display()),
                     help: "continue it with --continue, or give another file".to_owned(),
@@ -49,11 +48,9 @@ impl ResultFile {
             })?;
             return Ok(Some(Self { path: path.clone(), file, seed, done: VecDeque::new() }));
         }
-        let options = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path);
-        let mut file = options.map_err(cannot)?;
-        let (done, length) = read(path, &file)?;
-        // A line that was being written when the earlier call ended.
-        file.set_len(length).and_then(|()| file.seek(SeekFrom::Start(length))).map_err(cannot)?;
+        let (file, lines) = LineFile::continued(path).map_err(cannot)?;
+        let done = lines.iter().enumerate().map(|(index, line)| read(path, index + 1, line));
+        let done = done.collect::<Result<_, _>>()?;
         Ok(Some(Self { path: path.clone(), file, seed, done }))
     }
 
@@ -96,28 +93,16 @@ impl ResultFile {
         if let (Value::Object(line), Value::Object(more)) = (&mut line, more) {
             line.extend(more);
         }
-        let written = self.file.write_all(format!("{line}\n").as_bytes());
+        let written = self.file.add(&line.to_string());
         written.map_err(|source| CliError::Write { path: self.path.clone(), source })
     }
 }
 
-/// Whole lines of a file of results, and the number of their bytes.
-fn read(path: &Path, file: &File) -> Result<(VecDeque<DoneResult>, u64), CliError> {
-    let mut reader = BufReader::new(file);
-    let (mut done, mut length, mut line) = (VecDeque::new(), 0, Vec::new());
-    loop {
-        line.clear();
-        let read = reader.read_until(b'\n', &mut line).map_err(|source| CliError::read(path, source))?;
-        if line.last() != Some(&b'\n') {
-            return Ok((done, length));
-        }
-        let number = done.len() + 1;
-        let wrong = || {
-            CliError::Message(format!("line {number} of `{}` is no result of this command", path.display()))
-        };
-        let line: Map<String, Value> = serde_json::from_slice(&line).map_err(|_| wrong())?;
-        let checksum = line.get("checksum").and_then(Value::as_str).ok_or_else(wrong)?.to_owned();
-        done.push_back(DoneResult { checksum, line });
-        length += u64::try_from(read).unwrap_or_default();
-    }
+/// Result that stands in a line of a file.
+fn read(path: &Path, number: usize, line: &[u8]) -> Result<DoneResult, CliError> {
+    let wrong =
+        || CliError::Message(format!("line {number} of `{}` is no result of this command", path.display()));
+    let line: Map<String, Value> = serde_json::from_slice(line).map_err(|_| wrong())?;
+    let checksum = line.get("checksum").and_then(Value::as_str).ok_or_else(wrong)?.to_owned();
+    Ok(DoneResult { checksum, line })
 }

@@ -5,14 +5,14 @@ use std::collections::BTreeMap;
 use motet_runtime::journal::JournalEntry;
 use motet_runtime::{DriverEvent, Effect, Event, GoalId, Outcome};
 use motet_stdlib::lang::primitives;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Calls that change what the hand or a door does: the same one again without another between is one too
 /// many.
 const ACTS: [&str; 5] = [primitives::PICK, "place", "handover", "open", "close"];
 
 /// Faults of the actions of a run.
-#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize)]
+#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
 pub struct ActionFaults {
     /// Calls of which the driver never said that it took or refused them.
     pub dropped: Vec<String>,

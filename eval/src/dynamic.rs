@@ -13,7 +13,7 @@ use motet_sim::Faults;
 use rand::RngExt as _;
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::SeedableRng as _;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::actions::ActionFaults;
 use crate::bench::{Bench, TrialObserver, action_line};
@@ -78,10 +78,10 @@ pub fn instructions() -> impl Iterator<Item = &'static str> {
 }
 
 /// Result of a trial.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Trial {
     /// The task.
-    pub task: &'static str,
+    pub task: String,
     /// The robot.
     pub robot: String,
     /// Time of the change, in s.
@@ -152,7 +152,7 @@ fn play(
     let problem = if let Outcome::Failed(problem) = &outcome { Some(problem.kind) } else { None };
     let last = observer.failures.0.last().copied().or(problem.map(FailureSort::of_problem));
     let trial = Trial {
-        task: task.name,
+        task: task.name.to_owned(),
         robot: robot.to_owned(),
         changed_at: change_at.unwrap_or_default(),
         is_reached,
@@ -182,8 +182,7 @@ pub fn trials(bench: &Bench, seed: u64, count: usize) -> Result<Vec<Trial>, Stri
     }
     drawn.retain(|(task, robot, _, _): &(&Task, &str, usize, f64)| bench.asks_for(&[robot, task.name]));
     let play = |(task, robot, index, draw): (&Task, &str, usize, f64)| run(bench, task, robot, index, draw);
-    let trials = bench.workers.spread(drawn, play);
-    trials.into_iter().collect()
+    bench.workers.spread_kept(drawn, play)
 }
 
 /// The tables: success by task as in VLP's figure 8, and by robot with the shares of failures as in its

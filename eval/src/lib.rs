@@ -18,15 +18,19 @@ pub mod soundness;
 pub mod tasks;
 pub mod world;
 
+use std::io;
 use std::ops::ControlFlow;
+use std::path::Path;
 use std::time::Duration;
 
 use indexmap::IndexMap;
 use indicatif::{ProgressBar, ProgressStyle};
 use motet::batch::{self, Shard};
+use motet::line_file::LineFile;
 use motet_compiler::Session;
 use motet_syntax::{Diagnostic, Severity, Source, Sources};
 use serde::Serialize;
+use serde::de::DeserializeOwned;
 
 /// Verdict of a row beside that of the compiler.
 #[derive(Clone, Debug)]
@@ -134,13 +138,42 @@ pub struct Workers {
     pub jobs: usize,
     /// Share of the items.
     pub shard: Shard,
+    /// File that keeps the results, so that a later call continues.
+    pub kept: Option<KeptResults>,
+}
+
+/// File of results, and the words of the command line that decide them.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct KeptResults {
+    pub path: &'static Path,
+    pub words: &'static str,
+}
+
+impl KeptResults {
+    /// Opens the file at its end, with the results that it has.
+    fn open<R: DeserializeOwned>(self) -> Result<(LineFile, Vec<R>), String> {
+        let path = self.path.display();
+        let (mut file, lines) = LineFile::continued(self.path).map_err(|error| format!("{path}: {error}"))?;
+        let head = serde_json::json!({ "eval": self.words }).to_string();
+        let Some((first, rest)) = lines.split_first() else {
+            file.add(&head).map_err(|error| format!("{path}: {error}"))?;
+            return Ok((file, Vec::new()));
+        };
+        if *first != head.as_bytes() {
+            return Err(format!("{path}: not of `eval {}`: give another file", self.words));
+        }
+        let read = |(index, line): (usize, &Vec<u8>)| {
+            serde_json::from_slice(line).map_err(|error| format!("{path}:{}: {error}", index + 2))
+        };
+        Ok((file, rest.iter().enumerate().map(read).collect::<Result<_, _>>()?))
+    }
 }
 
 impl Default for Workers {
     /// A thread for each core, and all items.
     fn default() -> Self {
         let jobs = std::thread::available_parallelism().map_or(1, usize::from);
-        Self { jobs, shard: Shard::default() }
+        Self { jobs, shard: Shard::default(), kept: None }
     }
 }
 
@@ -167,6 +200,46 @@ impl Workers {
         bar.finish_and_clear();
         done
     }
+
+    /// Runs something on each item of the share, as [`Workers::spread`] does; results that the file of
+    /// `kept` has already are read from it.
+    ///
+    /// # Errors
+    ///
+    /// The first error of `run`, or the file is of another command, or cannot be read or written.
+    pub fn spread_kept<T, R>(
+        self,
+        items: Vec<T>,
+        run: impl Fn(T) -> Result<R, String> + Sync,
+    ) -> Result<Vec<R>, String>
+    where
+        T: Send,
+        R: Send + Serialize + DeserializeOwned,
+    {
+        let Some(kept) = self.kept else { return self.spread(items, run).into_iter().collect() };
+        let items = items.into_iter().enumerate().filter(|(index, _)| self.shard.has(*index));
+        let (mut file, mut done) = kept.open::<R>()?;
+        let items: Vec<T> = items.map(|(_, item)| item).skip(done.len()).collect();
+        let bar = progress(items.len() as u64);
+        let ended = batch::in_order(self.jobs, 1, items, run, |result| {
+            bar.inc(1);
+            let result = match result {
+                Ok(result) => result,
+                Err(why) => return ControlFlow::Break(why),
+            };
+            let line = serde_json::to_string(&result).map_err(io::Error::from);
+            if let Err(error) = line.and_then(|line| file.add(&line)) {
+                return ControlFlow::Break(format!("{}: {error}", kept.path.display()));
+            }
+            done.push(result);
+            ControlFlow::Continue(())
+        });
+        bar.finish_and_clear();
+        match ended {
+            ControlFlow::Break(why) => Err(why),
+            ControlFlow::Continue(()) => Ok(done),
+        }
+    }
 }
 
 /// Checks a policy document under a domain of declarations, without robot and scene.
@@ -192,4 +265,38 @@ pub fn check_in_domain(domain: &str, policy: &str) -> (Vec<Diagnostic>, Duration
 pub fn first_error(said: &[Diagnostic]) -> Option<&Diagnostic> {
     let errors = said.iter().filter(|said| said.severity == Severity::Error);
     errors.min_by_key(|said| said.code.0 == "M0503")
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Write as _;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    use super::*;
+
+    #[test]
+    fn spread_kept_goes_on_where_it_was_stopped() {
+        let path = std::env::temp_dir().join(format!("motet-eval-kept-{}", std::process::id()));
+        let _ = std::fs::remove_file(&path);
+        let kept = KeptResults { path: Box::leak(path.clone().into_boxed_path()), words: "dynamic 3" };
+        let workers = Workers { jobs: 2, kept: Some(kept), ..Workers::default() };
+        let items = || (0..10).collect::<Vec<u32>>();
+        let fails =
+            |item: u32| if item < 6 { Ok(item * item) } else { Err(format!("no power for {item}")) };
+        assert_eq!(workers.spread_kept(items(), fails), Err("no power for 6".to_owned()));
+        // A line that was being written when the call was stopped.
+        std::fs::OpenOptions::new().append(true).open(&path).unwrap().write_all(b"3").unwrap();
+        let calls = AtomicUsize::new(0);
+        let goes_on = |item: u32| {
+            calls.fetch_add(1, Ordering::Relaxed);
+            Ok(item * item)
+        };
+        let all: Vec<u32> = (0..10).map(|item| item * item).collect();
+        assert_eq!(workers.spread_kept(items(), goes_on), Ok(all));
+        assert_eq!(calls.into_inner(), 4);
+        let other = Workers { kept: Some(KeptResults { words: "dynamic 4", ..kept }), ..workers };
+        let refused = other.spread_kept(items(), |item: u32| Ok(item)).unwrap_err();
+        assert!(refused.contains("not of `eval dynamic 4`"), "{refused}");
+        std::fs::remove_file(path).unwrap();
+    }
 }

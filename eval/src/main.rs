@@ -27,8 +27,10 @@
 //! - `physics --robot NAME [--seeds N]` carries every feasible verdict out in MuJoCo, and exits with 0 if the
 //!   shares that it bears out reach the aims.
 //!
-//! All suites but `reach` and `physics` take `-j N`, a number of threads, and `--shard K/N`, which takes each
-//! N-th item from the K-th on.
+//! All suites take `-j N`, a number of threads, and `--shard K/N`, which takes each N-th item from the K-th
+//! on, but for `reach` and `physics`, whose figures are times. `dialogue`, `dynamic`, `tasks` and `world`
+//! take `--continue FILE`, which keeps the results: a later call with the same words goes on where an earlier
+//! one was stopped.
 
 use std::io::Write as _;
 use std::path::Path;
@@ -38,7 +40,7 @@ use motet_eval::bench::{Bench, DriverKind};
 use motet_eval::planners::PlannerKind;
 use motet_eval::saycan::planned;
 use motet_eval::{
-    Judged, Workers, dialogue, dynamic, mutations, physics, planbench, repairs, saycan, scenarios, soundness,
+    Judged, KeptResults, Workers, dialogue, dynamic, mutations, physics, planbench, repairs, saycan, scenarios, soundness,
     summary, tasks, world,
 };
 
@@ -51,6 +53,24 @@ const SUITES: &[(&str, Suite)] = &[
     ("saycan", |workers, lines| judged(workers, lines, saycan::judge)),
     ("repairs", repaired),
 ];
+
+/// Suites whose results can be kept in a file.
+const KEPT: [&str; 4] = ["dialogue", "dynamic", "tasks", "world"];
+
+/// Words of a command line without those that do not change the results.
+fn deciding(args: &[String]) -> String {
+    let (mut words, mut args) = (Vec::new(), args.iter());
+    while let Some(arg) = args.next() {
+        match arg.as_str() {
+            "-j" | "--jobs" | "--continue" => {
+                let _ = args.next();
+            }
+            "--json" => {}
+            word => words.push(word.to_owned()),
+        }
+    }
+    words.join(" ")
+}
 
 /// Flags and words of the command line.
 #[derive(Default)]
@@ -72,8 +92,8 @@ struct Flags {
 }
 
 impl Flags {
-    fn read(args: &[String]) -> Result<Self, String> {
-        let (mut flags, mut args) = (Self::default(), args.iter());
+    fn read(all: &[String]) -> Result<Self, String> {
+        let (mut flags, mut kept, mut args) = (Self::default(), None, all.iter());
         while let Some(arg) = args.next() {
             let mut value = || args.next().cloned().ok_or_else(|| format!("`{arg}` needs a value"));
             match arg.as_str() {
@@ -97,9 +117,18 @@ impl Flags {
                     flags.workers.jobs = jobs.ok_or("the number of threads is from 1 to 1024")?;
                 }
                 "--shard" => flags.workers.shard = value()?.parse()?,
+                "--continue" => kept = Some(value()?),
                 flag if flag.starts_with('-') => return Err(format!("there is no flag `{flag}`")),
                 word => flags.words.push(word.to_owned()),
             }
+        }
+        if let Some(path) = kept {
+            if !flags.words.first().is_some_and(|suite| KEPT.contains(&suite.as_str())) {
+                return Err(format!("`--continue` is for {}", KEPT.join(", ")));
+            }
+            // They last as long as the process does.
+            let path = Path::new(Box::leak(path.into_boxed_str()));
+            flags.workers.kept = Some(KeptResults { path, words: Box::leak(deciding(all).into_boxed_str()) });
         }
         Ok(flags)
     }

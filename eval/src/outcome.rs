@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 use motet_planner::dialogue::Kind;
 use motet_runtime::{DriverEvent, Event, Outcome};
 use motet_stdlib::lang::failures;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Sort of a failure.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Serialize)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FailureSort {
     /// A thing was not found, or not told apart.

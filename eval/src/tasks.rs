@@ -13,7 +13,7 @@ use motet_robots::scene::{self, Scene};
 use motet_runtime::Time;
 use motet_sim::Faults;
 use motet_syntax::{Source, Sources};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::actions::ActionFaults;
@@ -75,7 +75,7 @@ impl RowFact {
 }
 
 /// Result of a trial.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct TaskTrial {
     pub table: String,
     pub cell: String,
@@ -136,7 +136,7 @@ pub fn trials(bench: &Bench, tasks: &[Task], count: usize) -> Result<Vec<TaskTri
         bench.asks_for(&[robot, &task.table, &task.cell, &task.request])
     });
     let run = |(task, robot, seed): (&Task, &str, u64)| task.carry_out(bench, robot, seed);
-    bench.workers.spread(drawn, run).into_iter().collect()
+    bench.workers.spread_kept(drawn, run)
 }
 
 /// Person who answers by the kind of the problem.

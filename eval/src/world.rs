@@ -19,7 +19,7 @@ use motet_robots::scene::Scene;
 use motet_runtime::{Answer, Engine, Event, Observer, Pattern, Query, RunEnd, StartState, Time, run};
 use motet_sim::Faults;
 use motet_syntax::{FileId, Source, Sources};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::bench::{Bench, TrialRobot};
 use crate::outcome::{FailureSort, StepFailures};
@@ -51,7 +51,7 @@ pub struct WorldRun {
 }
 
 /// Result of a run.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct WorldEnd {
     /// Name of the example, or the request.
     pub name: String,
@@ -99,7 +99,7 @@ pub fn runs(folder: &Path, count: usize) -> Result<Vec<WorldRun>, String> {
 /// The driver does not start.
 pub fn carry_out(mut runs: Vec<WorldRun>, bench: &Bench) -> Result<Vec<WorldEnd>, String> {
     runs.retain(|run| bench.asks_for(&[&run.robot, &run.scene, &run.name]));
-    bench.workers.spread(runs, |run| run.carry_out(bench)).into_iter().collect()
+    bench.workers.spread_kept(runs, |run| run.carry_out(bench))
 }
 
 /// Notes failures of steps.

@@ -7,6 +7,7 @@ pub mod driver_camera;
 mod error;
 mod facade;
 pub mod feasible;
+pub mod line_file;
 pub mod page;
 pub mod plan;
 pub mod printable;

@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .driver import Driver, Failed, Goal, Lost, Motion, Refused, observes
+from .driver import Driver, Failed, Goal, Lost, Motion, Refused, observes, performs
 from .errors import InputError, PlanError, PolicyError
 from .serving import serve
 from .values import ANY, Case, Entity, Pose, Text
@@ -59,7 +59,7 @@ __all__ = [
     "ANY", "Case", "Conformance", "Decoder", "Diagnostic", "Driver", "Entity", "Environment", "Event", "Failed", "Feasibility",
     "Goal", "Graph", "InputError", "Inputs", "Lost", "Motion", "MotionVerdict", "Plan", "PlanError", "PolicyError", "Pose", "Project",
     "Refused", "Replay", "Report", "Run", "Text", "Vocabulary", "__version__", "check", "check_driver", "compile", "drive",
-    "explain", "feasible", "fix", "fmt", "observes", "plan", "replay", "serve", "simulate", "vocabulary",
+    "explain", "feasible", "fix", "fmt", "observes", "performs", "plan", "replay", "serve", "simulate", "vocabulary",
 ]
 
 

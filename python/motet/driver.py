@@ -25,12 +25,12 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from .values import Text, decode, encode, python_name
+from .values import Text, decode, encode, example, python_name
 
 if TYPE_CHECKING:
     from .protocol import Session
 
-__all__ = ["Driver", "Failed", "Goal", "Lost", "Motion", "Refused", "observes"]
+__all__ = ["Driver", "Failed", "Goal", "Lost", "Motion", "Refused", "observes", "performs"]
 
 #: Characters of a text for people that the host keeps.
 LONGEST = 1000
@@ -140,6 +140,10 @@ class Goal:
         self._saw_cancel = self._is_cancelled
         return self._is_cancelled
 
+    def example_result(self) -> Any:
+        """Some value of the type of its result, for drivers that only pretend to move."""
+        return example(self.result_type)
+
     async def feedback(self, text: str) -> None:
         """Says something to people and the journal; the host keeps at most 1,000 characters. Gives other goals a turn."""
         if self._session is not None:
@@ -198,11 +202,45 @@ def observes(name: str) -> Callable[[Method], Method]:
     return mark
 
 
+def performs(name: str) -> Callable[[Method], Method]:
+    """Marks the coroutine of the primitive `name`, where its own name must be another one: `stop`, `look` and the other names of
+    the base class are taken.
+
+    >>> class Robot(Driver):
+    ...     @performs("look")
+    ...     async def look_at(self, goal, target): ...
+    >>> Robot()._primitives()
+    {'only': ['look']}
+    """
+
+    def mark(method: Method) -> Method:
+        method._motet_performs = name  # type: ignore[attr-defined]
+        return method
+
+    return mark
+
+
+#: Parameters of the methods that a driver may have and the base class has not.
+_OPTIONAL = {"look": ("camera",), "detections": (), "told": ("thing",), "truth": ("query",)}
+
+
+def _needed(method: Callable[..., Any]) -> tuple[str, ...]:
+    """Names of the parameters of a method that a caller must give."""
+    params = list(inspect.signature(method).parameters.values())[1:]
+    return tuple(one.name for one in params if one.default is one.empty and one.kind is one.POSITIONAL_OR_KEYWORD)
+
+
+def _is_own_name(name: str) -> bool:
+    """True if a method of this name answers the protocol, and is no primitive, fact or measure."""
+    return name in _OPTIONAL or hasattr(Driver, name)
+
+
 class Driver:
     """A robot. A subclass has one `async def` for each primitive, and a method for each fact or measure that it observes.
 
     The coroutines whose names do not begin with `_` are the primitives that it has; a subclass with a `perform` of its own has
-    all. A policy that calls another primitive is refused before anything moves.
+    all. A policy that calls another primitive is refused before anything moves. For a primitive, a fact or a measure with the
+    name of a method here, such as `stop`, mark another method with `performs` or `observes`.
 
     A coroutine gets the goal and the arguments of the primitive by name; a name that is a keyword of Python has an underscore at
     its end, such as `from_`. What it returns is the result. It raises `Failed` to end in a failure, and `Refused`, before its
@@ -225,6 +263,22 @@ class Driver:
     watch_period: float = 0.1
 
     _session: Session | None = None
+
+    def __init_subclass__(cls, **kwargs: Any) -> None:
+        """Raises `TypeError` for a primitive or an observation that hides a method of the protocol."""
+        super().__init_subclass__(**kwargs)
+        for name, method in vars(cls).items():
+            if not inspect.isfunction(method) or not _is_own_name(name) or name.startswith("_"):
+                continue
+            params = _OPTIONAL[name] if name in _OPTIONAL else _needed(getattr(Driver, name))
+            try:
+                inspect.signature(method).bind(None, *params)
+            except TypeError:
+                raise TypeError(
+                    f"`{cls.__name__}.{name}` does not take ({', '.join(params)}) as the method of the protocol with this name "
+                    f"does; for a primitive or an observation `{name}`, give the method another name and mark it with "
+                    f'`@motet.performs("{name}")` or `@motet.observes("{name}")`'
+                ) from None
 
     async def perform(self, goal: Goal, **args: Any) -> Any:
         """Carries out a primitive that has no coroutine of its own. Refuses it, if no subclass says otherwise."""
@@ -285,24 +339,28 @@ class Driver:
         if type(self).perform is not Driver.perform:
             return "all"
         methods = {name: getattr(type(self), name, None) for name in dir(type(self))} | vars(self)
-        own = [name for name, method in methods.items()
-               if inspect.iscoroutinefunction(method) and not inspect.iscoroutinefunction(getattr(Driver, name, None))]
-        named = [name[:-1] if name.endswith("_") and keyword.iskeyword(name[:-1]) else name for name in own]
-        return {"only": sorted(name for name in named if not name.startswith("_"))}
+        own = [_primitive(name, method) for name, method in methods.items() if inspect.iscoroutinefunction(method)]
+        return {"only": sorted(name for name in own if name is not None)}
 
     def _performer(self, primitive: str) -> Callable[..., Any]:
-        method = getattr(self, python_name(primitive), None)
-        own = getattr(Driver, python_name(primitive), None)
-        is_own = own is not None and getattr(method, "__func__", None) is own
-        return method if inspect.iscoroutinefunction(method) and not is_own else self.perform
+        for name in dir(type(self)):
+            if getattr(getattr(type(self), name), "_motet_performs", None) == primitive:
+                return getattr(self, name)  # type: ignore[no-any-return]
+        name = python_name(primitive)
+        method = getattr(self, name, None)
+        return method if inspect.iscoroutinefunction(method) and _primitive(name, method) == primitive else self.perform
 
     def _unfit(self, calls: Mapping[str, tuple[str, ...]]) -> list[str]:
         """What keeps its coroutines from taking these parameters of their primitives, each in a clause."""
         unfit = []
         for primitive, params in calls.items():
             names = [python_name(name) for name in params]
+            performer = self._performer(primitive)
+            if _is_own_name(primitive) and performer == self.perform and type(self).perform is Driver.perform:
+                unfit.append(f'`{primitive}` is a method of the protocol: mark a coroutine with `@motet.performs("{primitive}")`')
+                continue
             try:
-                inspect.signature(self._performer(primitive)).bind(None, **dict.fromkeys(names))
+                inspect.signature(performer).bind(None, **dict.fromkeys(names))
             except TypeError as wrong:
                 unfit.append(f"its `{python_name(primitive)}` does not take `goal, {', '.join(names)}`: {wrong}")
         return unfit
@@ -318,8 +376,8 @@ class Driver:
             if getattr(getattr(type(self), key), "_motet_observes", None) == name:
                 return getattr(self, key)  # type: ignore[no-any-return]
         method = getattr(self, python_name(name), None)
-        is_base = hasattr(Driver, python_name(name))
-        return method if callable(method) and not inspect.iscoroutinefunction(method) and not is_base else None
+        is_own = callable(method) and not inspect.iscoroutinefunction(method) and not _is_own_name(python_name(name))
+        return method if is_own else None
 
     async def _answer(self, query: dict[str, Any]) -> Any:
         """The answer to a query in the words of the protocol."""
@@ -334,6 +392,16 @@ class Driver:
         if inspect.isawaitable(said):
             said = await said
         return answer_of(query, said)
+
+
+def _primitive(name: str, coroutine: Any) -> str | None:
+    """The primitive that a coroutine of a driver carries out, or None."""
+    marked = getattr(coroutine, "_motet_performs", None)
+    if marked is not None:
+        return str(marked)
+    if name.startswith("_") or _is_own_name(name) or hasattr(coroutine, "_motet_observes"):
+        return None
+    return name[:-1] if name.endswith("_") and keyword.iskeyword(name[:-1]) else name
 
 
 def answer_of(query: dict[str, Any], said: Any) -> Any:

@@ -91,6 +91,9 @@ class Graph:
     def _repr_svg_(self) -> str:
         return outline(self.tree())
 
+    def _repr_html_(self) -> str:
+        return self._repr_svg_() + self.report._repr_html_()
+
 
 #: Parts of a node that say what it does, not what it asks.
 _DEEDS = frozenset(("effects", "unsettles", "motion", "leaves"))

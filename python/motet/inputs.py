@@ -18,7 +18,8 @@ __all__ = ["Clearance", "Inputs", "PolicyLike", "RobotLike", "SceneLike", "State
 
 #: A policy: its text in either syntax, its JSON as a mapping, or the path of a file.
 PolicyLike: TypeAlias = Union[str, Mapping[str, Any], "os.PathLike[str]"]
-#: A robot: a built-in name, a folder with a robot.toml, or the content of a robot.toml as a mapping.
+#: A robot: a built-in name, a folder with a robot.toml, or the content of a robot.toml as a mapping, whose files (URDF, meshes,
+#: primitives.motet) are in its `folder`, or else in the present one.
 RobotLike: TypeAlias = Union[str, Mapping[str, Any], "os.PathLike[str]"]
 #: A scene: a built-in name, a file, or its JSON as a mapping.
 SceneLike: TypeAlias = Union[str, Mapping[str, Any], "os.PathLike[str]"]
@@ -56,9 +57,16 @@ def name_or_json(given: Any) -> str:
     if isinstance(given, (str, os.PathLike)):
         return os.fspath(given)
     try:
-        return json.dumps(given, ensure_ascii=False, allow_nan=False)
+        return json.dumps(given, ensure_ascii=False, allow_nan=False, default=_path)
     except (TypeError, ValueError, RecursionError) as error:
         raise InputError(f"the input is no JSON: {error}") from None
+
+
+def _path(given: Any) -> str:
+    """The text of a path inside of a mapping."""
+    if isinstance(given, os.PathLike):
+        return os.fspath(given)  # type: ignore[no-any-return]
+    raise TypeError(f"{type(given).__name__} is not JSON serializable")
 
 
 def document(policy: PolicyLike, name: str) -> tuple[str, bytes | None]:
@@ -93,6 +101,8 @@ def factor(effort: int) -> int:
 
 def fingerprint(given: Any) -> object:
     """Something that changes with the input, or with the files behind its path."""
+    if isinstance(given, Mapping) and isinstance(given.get("folder"), (str, os.PathLike)):
+        return name_or_json(given), fingerprint(os.fspath(given["folder"]))
     text = name_or_json(given)
     path = Path(text) if len(text) < 4096 and "\0" not in text else None
     try:

@@ -9,6 +9,7 @@ from html import escape
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 from .errors import PolicyError
+from .pictures import outline
 
 if TYPE_CHECKING:
     from ._motet import Findings
@@ -162,6 +163,10 @@ class Report(Sequence[Diagnostic]):
     def __repr__(self) -> str:
         return f"<motet.Report: {len(self.errors)} errors, {len(self)} diagnostics>"
 
+    def _repr_svg_(self) -> str:
+        rows = [f"{_SIGNS[found.severity]} {found}" for found in self.diagnostics]
+        return outline("\n".join(rows or ["✓ no errors"]))
+
     def _repr_html_(self) -> str:
         if not self.diagnostics:
             return "<p>✓ no errors</p>"
@@ -170,8 +175,11 @@ class Report(Sequence[Diagnostic]):
         return f"<table>{rows}</table>{source}"
 
 
+_SIGNS = {"error": "✗", "warning": "⚠", "note": "·"}
+
+
 def _row(found: Diagnostic) -> str:
-    sign = {"error": "✗", "warning": "⚠", "note": "·"}[found.severity]
+    sign = _SIGNS[found.severity]
     place = f"{found.file}:{found.span.line}:{found.span.column}"
     advice = "" if found.help is None else f"<br><i>help: {escape(found.help)}</i>"
     cells = (f"{sign} {found.severity}", found.code, place)

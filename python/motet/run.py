@@ -6,6 +6,7 @@ import json
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from html import escape
 from typing import TYPE_CHECKING, Any, overload
 
 from . import _motet
@@ -173,6 +174,11 @@ class Run(Sequence[Event]):
 
     def _repr_svg_(self) -> str:
         return lanes(self._bars(), self.duration)
+
+    def _repr_html_(self) -> str:
+        end = "" if self.failure is None else f": {self.failure}" + ("" if self.why is None else f", {self.why}")
+        caption = f"{self.graph.policy}: {self.outcome} after {self.duration:.1f} s{end}"
+        return f"{self._repr_svg_()}<p>{escape(caption)}</p>"
 
 
 def _event(record: dict[str, Any]) -> Event:

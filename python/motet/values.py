@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-__all__ = ["ANY", "Case", "Entity", "Pose", "Text", "decode", "encode", "python_name"]
+__all__ = ["ANY", "Case", "Entity", "Pose", "Text", "decode", "encode", "example", "python_name"]
 
 PLAIN = ("Length", "Angle", "Duration", "Mass", "Force", "Speed", "Ratio", "Number")
 
@@ -40,6 +40,18 @@ class _Any:
 
 
 ANY = _Any()
+
+
+def example(kind: str | None) -> Any:
+    """Some value of a type, by the name of the type; None without one.
+
+    >>> example("List<Length>"), example("Text")
+    ([1.0], 'yes')
+    """
+    if kind is not None and kind.startswith("List<"):
+        return [example(kind[5:-1])]
+    plain = {None: None, "Text": "yes", "Bool": True, "Int": 1, "Pose": Pose((0.0, 0.0, 0.0))}
+    return 1.0 if kind in PLAIN else plain.get(kind, "example_1")
 
 
 def python_name(name: str) -> str:

@@ -19,24 +19,24 @@ impl Vocabulary {
     /// token that ends a sequence; the default is the token with a well-known name.
     #[staticmethod]
     #[pyo3(signature = (file, end = None))]
-    fn from_file(file: &[u8], end: Option<EndOfSequence>) -> PyResult<Self> {
-        motet_decode::Vocabulary::from_file(file, EndOfSequence::as_end(end.as_ref()))
+    fn from_file(py: Python<'_>, file: &[u8], end: Option<EndOfSequence>) -> PyResult<Self> {
+        py.detach(|| motet_decode::Vocabulary::from_file(file, EndOfSequence::as_end(end.as_ref())))
             .map(Self)
             .map_err(wrong)
     }
 
     /// The vocabulary `cl100k` or `o200k`.
     #[staticmethod]
-    fn of_encoding(name: &str) -> PyResult<Self> {
+    fn of_encoding(py: Python<'_>, name: &str) -> PyResult<Self> {
         let encoding = Encoding::named(name)
             .ok_or_else(|| wrong(format!("there is no encoding `{name}`: cl100k or o200k")))?;
-        motet_decode::Vocabulary::of_encoding(encoding).map(Self).map_err(wrong)
+        py.detach(|| motet_decode::Vocabulary::of_encoding(encoding)).map(Self).map_err(wrong)
     }
 
     /// Tokens as bytes in the order of their numbers; one without bytes is special.
     #[staticmethod]
-    fn from_tokens(tokens: Vec<Vec<u8>>, end: u32) -> PyResult<Self> {
-        motet_decode::Vocabulary::from_tokens(tokens, end).map(Self).map_err(wrong)
+    fn from_tokens(py: Python<'_>, tokens: Vec<Vec<u8>>, end: u32) -> PyResult<Self> {
+        py.detach(|| motet_decode::Vocabulary::from_tokens(tokens, end)).map(Self).map_err(wrong)
     }
 
     /// The token that ends a sequence.
@@ -55,8 +55,8 @@ impl Vocabulary {
     }
 
     /// The tokens of a text, the longest first at each place.
-    fn tokenize(&self, text: &[u8]) -> Vec<u32> {
-        self.0.tokenize(text)
+    fn tokenize(&self, py: Python<'_>, text: &[u8]) -> Vec<u32> {
+        py.detach(|| self.0.tokenize(text))
     }
 }
 
@@ -122,8 +122,8 @@ impl Environment {
     }
 
     /// Creates a decoder for a policy of at most `budget` bytes.
-    fn decoder(&self, vocabulary: &Vocabulary, budget: usize) -> PyResult<Decoder> {
-        let decoder = self.prepared.decoder(&vocabulary.0, budget);
+    fn decoder(&self, py: Python<'_>, vocabulary: &Vocabulary, budget: usize) -> PyResult<Decoder> {
+        let decoder = py.detach(|| self.prepared.decoder(&vocabulary.0, budget));
         let decoder = decoder.ok_or_else(|| wrong(format!("no policy has at most {budget} bytes")))?;
         Ok(Decoder { decoder, words: vocabulary.0.len().div_ceil(32) })
     }
@@ -148,26 +148,28 @@ impl Decoder {
     }
 
     /// Takes a token if it may follow.
-    fn accept(&mut self, token: u32) -> bool {
-        self.decoder.accept(token)
+    fn accept(&mut self, py: Python<'_>, token: u32) -> bool {
+        py.detach(|| self.decoder.accept(token))
     }
 
     /// The text that must come next; empty if there is a choice.
-    fn forced(&mut self) -> String {
-        String::from_utf8_lossy(&self.decoder.acceptor().forced()).into_owned()
+    fn forced(&mut self, py: Python<'_>) -> String {
+        py.detach(|| String::from_utf8_lossy(&self.decoder.acceptor().forced()).into_owned())
     }
 
     /// Takes back the last tokens.
     #[pyo3(signature = (tokens = 1))]
-    fn rollback(&mut self, tokens: usize) {
-        self.decoder.rollback(tokens);
+    fn rollback(&mut self, py: Python<'_>, tokens: usize) {
+        py.detach(|| self.decoder.rollback(tokens));
     }
 
     /// The errors of the checker for a text that may not follow: JSON objects, one a line.
-    fn why_not(&mut self, text: &str) -> String {
-        let acceptor = self.decoder.acceptor();
-        let (_, sources) = sources(&(String::from_utf8_lossy(acceptor.bytes()) + text));
-        render::json(&acceptor.why_not(text.as_bytes()), &sources)
+    fn why_not(&mut self, py: Python<'_>, text: &str) -> String {
+        py.detach(|| {
+            let acceptor = self.decoder.acceptor();
+            let (_, sources) = sources(&(String::from_utf8_lossy(acceptor.bytes()) + text));
+            render::json(&acceptor.why_not(text.as_bytes()), &sources)
+        })
     }
 
     /// The text so far.
@@ -178,8 +180,8 @@ impl Decoder {
 
     /// Returns `true` if the text so far is a whole policy.
     #[getter]
-    fn is_accepting(&mut self) -> bool {
-        self.decoder.acceptor().is_accepting()
+    fn is_accepting(&mut self, py: Python<'_>) -> bool {
+        py.detach(|| self.decoder.acceptor().is_accepting())
     }
 
     /// Another decoder in the same state.

@@ -7,7 +7,7 @@ import threading
 
 import pytest
 from motet.clock import new_loop
-from motet.driver import Driver, Failed, Lost, Refused, observes
+from motet.driver import Driver, Failed, Lost, Refused, observes, performs
 from motet.protocol import Session
 from motet.serving import _run, serve_connection
 from motet.values import ANY, Case, Pose, Text, decode, encode
@@ -306,3 +306,62 @@ def test_a_driver_says_which_primitives_it_has():
     assert Robot()._capabilities()["primitives"] == {"only": ["ask", "close", "go", "open", "pick", "say", "search"]}
     assert Any()._capabilities()["primitives"] == "all"
     assert Odd()._capabilities()["primitives"] == {"only": ["return"]}
+
+
+def test_a_primitive_with_a_name_of_the_base_class_is_marked():
+    class Own(Driver):
+        owns_clock = True
+
+        def __init__(self):
+            self.done = []
+
+        @performs("stop")
+        async def halt(self, goal, side):
+            self.done.append(f"halt {side}")
+
+        @performs("look")
+        async def look_at(self, goal, thing):
+            self.done.append(f"look {thing}")
+
+        @observes("truth")
+        def honesty(self):
+            return 0.75
+
+        async def stop(self, goal):
+            self.done.append("stand still")
+
+        async def look(self, camera):
+            return {"image": "", "camera": camera}
+
+    robot = Own()
+    assert robot._capabilities()["primitives"] == {"only": ["look", "stop"]} and robot._capabilities()["look"]
+    assert robot._unfit({"stop": ("side",), "look": ("thing",)}) == []
+    host = Host(robot)
+    named = [{"name": name, "fails": ["timeout"]} for name in ("stop", "look")]
+    host.call("hello", protocol=2, run="r", at=0.0, primitives=named)
+    host.start(1, "stop", side=entity("left"))
+    host.start(2, "look", thing=entity("mug"))
+    host.pass_until(1.0)
+    assert host.call("look", camera="head")["camera"] == "head"
+    assert host.call("observe", query={"measure": {"measure": "truth", "args": []}})["answer"] == {"value": {"number": 0.75}}
+    assert [of["outcome"] for of in host.of("ended")] == [{"success": None}] * 2
+    host.close()
+    assert robot.done == ["halt left", "look mug"]
+
+
+def test_a_primitive_that_hides_a_method_of_the_base_class_is_refused():
+    for name, source in {
+        "look": "async def look(self, goal, thing): ...",
+        "stop": "async def stop(self, goal, side): ...",
+        "observe": "async def observe(self, goal, thing): ...",
+        "report_moved": "async def report_moved(self, goal, a, b, c): ...",
+    }.items():
+        with pytest.raises(TypeError, match=rf'`Own.{name}` does not take .*@motet.performs\("{name}"\)'):
+            exec(f"class Own(Driver):\n    {source}", {"Driver": Driver})
+
+    class Quiet(Driver):
+        async def stop(self, goal):
+            pass
+
+    assert Quiet()._capabilities()["primitives"] == {"only": []}
+    assert Quiet()._unfit({"stop": ()}) == ['`stop` is a method of the protocol: mark a coroutine with `@motet.performs("stop")`']

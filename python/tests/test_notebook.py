@@ -29,12 +29,16 @@ def test_a_notebook_shows_reports_graphs_motions_and_runs():
     NotebookClient(notebook, timeout=120, kernel_name="python3").execute()
     shown = [cell.outputs[-1].data if cell.outputs else {} for cell in notebook.cells]
     assert "M0501" in shown[1]["text/html"] and "<table>" in shown[1]["text/html"]
-    assert is_svg(shown[2]["image/svg+xml"]) and "&lt;Hello&gt;" in shown[2]["image/svg+xml"]
-    assert is_svg(shown[3]["image/svg+xml"]) and "feasible" in shown[3]["text/html"]
-    assert is_svg(shown[4]["image/svg+xml"]) and "pick" in shown[4]["image/svg+xml"]
+    assert "&lt;Hello&gt;" in shown[2]["image/svg+xml"] and "no errors" in shown[2]["text/html"]
+    assert "feasible" in shown[3]["text/html"]
+    assert "pick" in shown[4]["image/svg+xml"] and " after " in shown[4]["text/html"]
     assert "no errors" in shown[5]["text/html"]
+    for data in shown[1:]:
+        assert is_svg(data["image/svg+xml"]) and "<" in data["text/html"]
 
 
 def test_names_in_pictures_are_text():
     report = motet.check("policy p for hsr { go(x) <script>alert(1)</script> }", name="<script>")
-    assert report and "<script>" not in report._repr_html_()
+    assert report and "<script>" not in report._repr_html_() and "<script>" not in report._repr_svg_()
+    run = motet.simulate('policy p for hsr { say("<script>") done }')
+    assert "&lt;script&gt;" in run._repr_html_() and "<script>" not in run._repr_html_() + run.graph._repr_html_()

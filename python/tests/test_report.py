@@ -108,6 +108,10 @@ def test_robots_scenes_and_states_are_values_names_and_paths():
         import tomllib
 
         card = tomllib.loads((ROOT / "robots/models/hsr/robot.toml").read_text())
+        reach = motet.feasible("reach(mug_1)", robot=card | {"folder": ROOT / "robots/models/hsr"}, scene="kitchen")
+        assert reach.ok and reach[0].witness == motet.feasible("reach(mug_1)", robot="hsr", scene="kitchen")[0].witness
+        with pytest.raises(motet.InputError, match="`folder` is a path"):
+            motet.check(policy, robot=card | {"folder": 3})
         del card["model"]
         assert motet.check("policy p { go(shelf) }", robot=card, scene="kitchen").ok
         with pytest.raises(motet.InputError) as raised:

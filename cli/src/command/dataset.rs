@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand, value_parser};
 use motet::batch;
+use motet::line_file::LineFile;
 use motet_dataset::format;
 use motet_dataset::generate::{self, Dataset, HeldOut, Order, SceneRows};
 use motet_dataset::lint::family;
@@ -99,6 +100,9 @@ struct MakeArgs {
     /// Seed; the same seed gives the same files
     #[arg(long, default_value_t = 0, value_name = "NUMBER")]
     seed: u64,
+    /// Go on with a folder that an earlier call with the same flags has begun
+    #[arg(long)]
+    r#continue: bool,
     #[command(flatten)]
     jobs: JobArgs,
     #[command(flatten)]
@@ -128,8 +132,10 @@ fn make(args: &MakeArgs, report: &mut Report) -> Result<Exit, CliError> {
         return Err(CliError::Message("rows in the format `inteliplan` are texts without images".to_owned()));
     }
     let order = order(args, report)?;
-    let dataset = generate::gather(&order, parts(&order, args.jobs));
     fs::create_dir_all(folder).map_err(|source| CliError::Write { path: folder.clone(), source })?;
+    let kept = KeptScenes::open(folder, &order, args)?;
+    let parts = folder.join(PARTS);
+    let dataset = generate::gather(&order, made(&order, args.jobs, kept)?);
     for (name, rows) in [("train", &dataset.train), ("test", &dataset.test)] {
         let lines = rows.iter().map(|row| format::write(row, order.form));
         write(&folder.join(format!("{name}.jsonl")), lines)?;
@@ -154,6 +160,8 @@ fn make(args: &MakeArgs, report: &mut Report) -> Result<Exit, CliError> {
     for (why, dropped) in &dataset.dropped {
         note(&format!("left out {dropped}: {why}"));
     }
+    // The dataset is whole: nothing is left to continue.
+    fs::remove_file(&parts).map_err(|source| CliError::Write { path: parts, source })?;
     if dataset.train.is_empty() && args.jobs.shard().is_whole() {
         return Err(CliError::Message("the dataset is empty".to_owned()));
     }
@@ -206,19 +214,72 @@ fn order(args: &MakeArgs, report: &mut Report) -> Result<Order, CliError> {
     })
 }
 
-/// Parts of a dataset with their numbers, in order.
-fn parts(order: &Order, jobs: JobArgs) -> Vec<(usize, SceneRows)> {
+/// File of a folder with the rows of the scenes that are made, as long as some are missing.
+const PARTS: &str = "unfinished.jsonl";
+
+/// Rows of scenes that are made, kept in a file, so that a later call continues.
+struct KeptScenes {
+    path: PathBuf,
+    file: LineFile,
+    /// Rows of the first scenes of the shard.
+    done: Vec<SceneRows>,
+}
+
+impl KeptScenes {
+    /// Opens the file of a folder. Its first line is a checksum of the order and the shard.
+    fn open(folder: &Path, order: &Order, args: &MakeArgs) -> Result<Self, CliError> {
+        let path = folder.join(PARTS);
+        let cannot = |source| CliError::Write { path: path.clone(), source };
+        let other = || CliError::Advised {
+            problem: format!("`{}` holds a dataset that is not finished", folder.display()),
+            help: "finish it with --continue and the flags with which it was begun, or give another folder"
+                .to_owned(),
+        };
+        if path.exists() && !args.r#continue {
+            return Err(other());
+        }
+        let (mut file, lines) = LineFile::continued(&path).map_err(cannot)?;
+        let shard = args.jobs.shard();
+        let head = format!("{:08x}", crc32fast::hash(format!("{shard:?} {order:?}").as_bytes()));
+        let Some((first, rest)) = lines.split_first() else {
+            file.add(&head).map_err(cannot)?;
+            return Ok(Self { path, file, done: Vec::new() });
+        };
+        let done = rest.iter().map(|line| serde_json::from_slice(line)).collect::<Result<_, _>>();
+        match done {
+            Ok(done) if *first == head.as_bytes() => Ok(Self { path, file, done }),
+            _ => Err(other()),
+        }
+    }
+
+    fn add(&mut self, rows: &SceneRows) -> Result<(), CliError> {
+        let line = serde_json::to_string(rows).map_err(std::io::Error::from);
+        let added = line.and_then(|line| self.file.add(&line));
+        added.map_err(|source| CliError::Write { path: self.path.clone(), source })
+    }
+}
+
+/// Rows of the scenes of a shard with their numbers, in order.
+fn made(order: &Order, jobs: JobArgs, mut kept: KeptScenes) -> Result<Vec<(usize, SceneRows)>, CliError> {
     let shard = jobs.shard();
     let numbers: Vec<usize> = (0..order.scenes).filter(|number| shard.has(*number)).collect();
+    let mut parts: Vec<_> = numbers.iter().copied().zip(std::mem::take(&mut kept.done)).collect();
+    let numbers: Vec<usize> = numbers.into_iter().skip(parts.len()).collect();
     let progress = Progress::of_items(numbers.len(), "generating");
-    let mut parts = Vec::new();
     let part = |number| (number, generate::part(order, number));
-    let _ = batch::in_order(jobs.jobs(), 1, numbers, part, |part| {
+    let ended = batch::in_order(jobs.jobs(), 1, numbers, part, |part| {
         progress.advance(1);
+        let added = kept.add(&part.1);
         parts.push(part);
-        ControlFlow::<()>::Continue(())
+        match added {
+            Err(why) => ControlFlow::Break(why),
+            Ok(()) => ControlFlow::Continue(()),
+        }
     });
-    parts
+    match ended {
+        ControlFlow::Break(why) => Err(why),
+        ControlFlow::Continue(()) => Ok(parts),
+    }
 }
 
 /// Suffix with the number of rows after a failure.

@@ -33,6 +33,41 @@ fn dataset_is_made_and_passes_lint() {
 }
 
 #[test]
+fn dataset_that_was_stopped_is_continued() {
+    let place = Place::new("dataset_continued").file("b/train.jsonl/in_the_way", "");
+    let making = format!("{MAKE} --images");
+    place.run(&format!("{making} --out a")).check(0, &[]);
+    assert!(!place.path("a/unfinished.jsonl").exists());
+    // All scenes are made, and the rows cannot be written; then all but a line and a half is lost.
+    place.run(&format!("{making} --out b")).check(2, &["err:b/train.jsonl"]);
+    std::fs::remove_dir_all(place.path("b/train.jsonl")).unwrap();
+    let kept = place.read("b/unfinished.jsonl");
+    let lines: Vec<&str> = kept.lines().collect();
+    assert_eq!(lines.len(), 4, "a head and three scenes");
+    let torn = format!("{}\n{}\n{}", lines[0], lines[1], &lines[2][..lines[2].len() / 2]);
+    std::fs::write(place.path("b/unfinished.jsonl"), &torn).unwrap();
+    for other in [making.clone(), format!("{making} --continue").replace("--seed 3", "--seed 4")] {
+        place.run(&format!("{other} --out b")).check(2, &["err:`b` holds a dataset that is not finished"]);
+    }
+    assert_eq!(place.read("b/unfinished.jsonl"), torn);
+    place.run(&format!("{making} --out b --continue -j 2")).check(0, &[]);
+    for file in ["train.jsonl", "test.jsonl", "scenes.jsonl"] {
+        assert_eq!(place.read(&format!("a/{file}")), place.read(&format!("b/{file}")), "{file}");
+    }
+    let images = |folder: &str| {
+        let entries = std::fs::read_dir(place.path(&format!("{folder}/images"))).unwrap();
+        let mut all: Vec<_> = entries
+            .map(|entry| entry.unwrap())
+            .map(|entry| (entry.file_name(), std::fs::read(entry.path()).unwrap()))
+            .collect();
+        all.sort();
+        all
+    };
+    assert!(!images("a").is_empty() && images("a") == images("b"));
+    assert!(!place.path("b/unfinished.jsonl").exists());
+}
+
+#[test]
 fn images_are_beside_the_rows_and_linted_with_them() {
     let place = Place::new("dataset_images");
     let making = "dataset --robot hsr --room kitchen --scenes 2 --cases 2 --no-geometry --seed 3 --images";

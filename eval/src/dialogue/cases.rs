@@ -7,7 +7,7 @@ use super::objects::{CaseThing, Objects, Swap};
 use super::rooms::{Named, ROOMS, Room};
 
 /// One case.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Case {
     /// The robot.
     pub robot: String,

@@ -15,6 +15,7 @@ use motet_compiler::CheckOptions;
 use motet_planner::dialogue::{Conversation, DialogueSetup, Kind, Outcome, Person, Problem};
 use motet_runtime::Time;
 use motet_sim::Faults;
+use serde::{Deserialize, Serialize};
 
 pub use cases::{Case, cases};
 pub use objects::{Objects, UNSEEN};
@@ -27,9 +28,10 @@ use crate::planners::Timed;
 use crate::setup;
 
 /// Result of a case.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Trial {
     /// The case.
+    #[serde(skip)]
     pub case: Case,
     /// True if the goal held at the end.
     pub is_reached: bool,
@@ -132,6 +134,14 @@ pub fn trials(bench: &Bench, wordings: &str, objects: Objects) -> Result<Vec<Tri
         cases.retain(|case| !case.failures.iter().any(is_injected));
     }
     cases.retain(|case| bench.asks_for(&[&case.robot, &case.scene, &case.request]));
-    let seeded = cases.into_iter().enumerate().step_by(bench.every.max(1)).collect();
-    bench.workers.spread(seeded, |(index, case)| run(bench, case, index as u64)).into_iter().collect()
+    let seeded: Vec<_> = cases.into_iter().enumerate().step_by(bench.every.max(1)).collect();
+    let shard = bench.workers.shard;
+    let own = seeded.iter().enumerate().filter(|(place, _)| shard.has(*place)).map(|(_, (_, case))| case.clone());
+    let own: Vec<_> = own.collect();
+    let mut trials = bench.workers.spread_kept(seeded, |(index, case)| run(bench, case, index as u64))?;
+    for (trial, case) in trials.iter_mut().zip(own) {
+        // A trial that an earlier call has kept is without it.
+        trial.case = case;
+    }
+    Ok(trials)
 }

@@ -12,6 +12,7 @@
 
 use motet_planner::dialogue::Kind;
 use motet_planner::inteliplan::exchange::{self, Exchange};
+use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use smol_str::SmolStr;
 
@@ -139,7 +140,7 @@ pub fn dataset_info(names: &[&str], pictures: Pictures) -> String {
 }
 
 /// Properties of a row, beside its texts.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
 pub struct About {
     /// The robot's name.
     pub robot: SmolStr,
@@ -155,7 +156,7 @@ pub struct About {
 }
 
 /// One turn of a conversation in which a planner is asked.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Row {
     pub about: About,
     /// System message, as `motet do` sends it.

@@ -9,6 +9,7 @@ use motet_geometry::planning::SearchBudget;
 use motet_robots::scene::Scene;
 use rand_xoshiro::SplitMix64;
 use rustc_hash::FxHashSet;
+use serde::{Deserialize, Serialize};
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
 
 use crate::deck::{Deck, DeckWish};
@@ -19,7 +20,7 @@ use crate::play::{IN_VIEW, play};
 use crate::random::{self, Draw as _};
 use crate::stage::{Body, Posture, Stage};
 use crate::wordings::Wordings;
-use crate::{case, lint, scenery};
+use crate::{case, kept, lint, scenery};
 
 /// Order for a dataset.
 #[derive(Clone, Debug)]
@@ -76,13 +77,15 @@ impl<'t> FromIterator<&'t str> for HeldOut {
 }
 
 /// Rows of one varied scene.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct SceneRows {
     rows: Vec<Row>,
+    #[serde(with = "kept::scenes")]
     scenes: IndexMap<SmolStr, Scene>,
     postures: IndexMap<SmolStr, Posture>,
+    #[serde(with = "kept::images")]
     pictures: BTreeMap<SmolStr, Picture>,
-    dropped: BTreeMap<&'static str, usize>,
+    dropped: BTreeMap<SmolStr, usize>,
 }
 
 /// A dataset in memory, before it is written.
@@ -99,7 +102,7 @@ pub struct Dataset {
     /// The picture of each row that has one, by its path: PNGs.
     pub pictures: BTreeMap<SmolStr, Arc<[u8]>>,
     /// Number of dropped cases and turns by reason.
-    pub dropped: BTreeMap<&'static str, usize>,
+    pub dropped: BTreeMap<SmolStr, usize>,
 }
 
 impl Order {
@@ -197,7 +200,7 @@ pub fn recorded(order: &Order, plans: &[RecordedPlan]) -> SceneRows {
 
 impl SceneRows {
     fn leave_out(&mut self, why: &'static str) {
-        *self.dropped.entry(why).or_default() += 1;
+        *self.dropped.entry(SmolStr::new_static(why)).or_default() += 1;
     }
 
     /// Draws conversations of a kind and plays them until one gives a row. False if none does.
@@ -347,7 +350,7 @@ pub fn gather(order: &Order, parts: Vec<(usize, SceneRows)>) -> Dataset {
         for row in part.rows {
             let input = format::read(&format::write(&row, order.form)).map(|read| lint::normal(&read.input));
             if !inputs.insert(input.unwrap_or_default()) {
-                *dataset.dropped.entry("the same input is there already").or_default() += 1;
+                *dataset.dropped.entry(SmolStr::new_static("the same input is there already")).or_default() += 1;
                 continue;
             }
             if let Some(scene) = part.scenes.get(&row.about.scene) {

@@ -4,6 +4,7 @@ pub mod case;
 mod deck;
 pub mod format;
 pub mod generate;
+mod kept;
 pub mod lesson;
 pub mod lint;
 pub mod picture;

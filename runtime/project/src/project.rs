@@ -54,8 +54,8 @@ impl Default for ProjectBuilder {
 
 impl ProjectBuilder {
     /// Sets the robot: a built-in name, a folder with a `robot.toml`, or the content of one as a JSON object,
-    /// whose files are looked up in the present folder. Without one, the `for NAME` of each document names a
-    /// built-in robot.
+    /// whose files are in its `folder`, or else in the present one. Without a robot, the `for NAME` of each
+    /// document names a built-in robot.
     #[must_use]
     pub fn robot(mut self, robot: impl Into<String>) -> Self {
         self.robot = Some(robot.into());

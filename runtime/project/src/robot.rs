@@ -61,7 +61,8 @@ impl RobotFiles {
     }
 
     /// Finds a robot by a built-in name, by its folder, or by the path of its `robot.toml`; or takes the
-    /// content of a `robot.toml` as a JSON object, whose files are in the present folder.
+    /// content of a `robot.toml` as a JSON object, whose files are in its `folder`, or else in the present
+    /// one.
     ///
     /// ```
     /// use motet_project::RobotFiles;
@@ -102,9 +103,16 @@ impl RobotFiles {
     /// Card as JSON: TOML is what diagnostics and journals show.
     fn of_json(json: &str) -> Result<Self, ProjectError> {
         let wrong = |why: String| ProjectError::Card(why);
-        let card: toml::Table = serde_json::from_str(json).map_err(|error| wrong(error.to_string()))?;
+        let mut card: toml::Table = serde_json::from_str(json).map_err(|error| wrong(error.to_string()))?;
+        let folder = match card.remove("folder") {
+            None => None,
+            Some(toml::Value::String(folder)) => Some(PathBuf::from(folder)),
+            Some(other) => return Err(wrong(format!("`folder` is a path, not `{other}`"))),
+        };
         let toml = toml::to_string(&card).map_err(|error| wrong(error.to_string()))?;
-        Ok(Self::draft(Path::new("."), &toml))
+        let mut files = Self::draft(folder.as_deref().unwrap_or(Path::new(".")), &toml);
+        files.declarations = folder.as_deref().map(declarations_in).transpose()?.flatten();
+        Ok(files)
     }
 
     /// Text of the card and of its declarations.
@@ -129,13 +137,7 @@ impl RobotFiles {
         if !path.is_file() {
             return Err(ProjectError::NoCard { path: folder.to_owned() });
         }
-        let declarations = folder.join("primitives.motet");
-        let declarations = if declarations.exists() {
-            let text = String::from_utf8(read_small(&declarations)?);
-            Some(text.map_err(|_| ProjectError::NotText { path: declarations })?)
-        } else {
-            None
-        };
+        let declarations = declarations_in(folder)?;
         let home = Home::Folder(folder.to_owned());
         Ok(Self { name: path.display().to_string(), home, toml: read_small(&path)?, declarations })
     }
@@ -152,6 +154,15 @@ impl RobotFiles {
         require("robot card", &diagnostics, sources, sink)?;
         robot.ok_or_else(|| invalid("robot card", diagnostics, sources))
     }
+}
+
+/// Text of the declarations beside a card, if it has any.
+fn declarations_in(folder: &Path) -> Result<Option<String>, ProjectError> {
+    let path = folder.join("primitives.motet");
+    if !path.exists() {
+        return Ok(None);
+    }
+    String::from_utf8(read_small(&path)?).map(Some).map_err(|_| ProjectError::NotText { path })
 }
 
 impl RobotFiles {

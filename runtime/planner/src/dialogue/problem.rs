@@ -6,6 +6,7 @@ use motet_robots::scene::Scene;
 use motet_runtime::{MissingPrimitive, RunEnd};
 use motet_stdlib::lang::{ASKING, failures, kinds, primitives};
 use motet_syntax::render::capital;
+use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 
 use super::reason::{self, Reason};
@@ -13,7 +14,8 @@ use crate::builtin::PlanError;
 use motet_requests::{RequestContext, RequestError};
 
 /// The kinds of failure.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Kind {
     /// The requested thing is missing, or not where it was believed to be.
     NotFound,
