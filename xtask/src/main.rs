@@ -1,8 +1,9 @@
 //! Chores of the workspace: `house` measures the code against `xtask/house.toml`, `docs` checks the
-//! documentation.
+//! documentation, `dependencies` compares licences and versions with lists.
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a chore reports on its output")]
 
+mod dependencies;
 mod docs;
 mod house;
 
@@ -12,7 +13,12 @@ use std::process::ExitCode;
 /// The usage text.
 const USAGE: &str = "usage: cargo run -p xtask -- house [--list MEASURE] [--under FOLDER]
        cargo run -p xtask -- docs MOTET [PAGE]
+       cargo run -p xtask -- dependencies [--advisories FOLDER | --sbom FILE]
 
+dependencies
+        compares the licences of all dependencies with those that deny.toml permits
+        --advisories FOLDER   compares their versions with a checkout of rustsec/advisory-db
+        --sbom FILE           writes a list of them, CycloneDX 1.5
 docs    runs the commands of the README and the book with the binary MOTET, and follows their links
 house   measures the code and compares each figure with its limit in xtask/house.toml
         --list MEASURE   prints the places that a measure counts, such as `wh-docs`
@@ -24,6 +30,7 @@ fn main() -> ExitCode {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let result = match words.as_slice() {
         ["house", options @ ..] => house::run(&root, options),
+        ["dependencies", options @ ..] => dependencies::run(&root, options),
         ["docs", motet] => docs::run(&root, Path::new(motet), None),
         ["docs", motet, page] => docs::run(&root, Path::new(motet), Some(page)),
         _ => Err(USAGE.to_owned()),
