@@ -61,7 +61,6 @@ pub fn all() -> Vec<Code> {
         crate::declare::diagnostics::CODES,
         crate::resolve::diagnostics::CODES,
         crate::environment::CODES,
-        crate::declare::CARD_CODES,
         motet_robots::card::CODES,
         motet_robots::mesh::CODES,
         motet_robots::import::CODES,

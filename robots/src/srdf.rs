@@ -1,13 +1,17 @@
 //! SRDF: groups of links and joints, end effectors, and pairs of links that may touch. It is read against the
 //! URDF, so every name in it refers to a link or joint. Virtual and passive joints, spheres and states are
-//! skipped. Diagnostics M0471, M0472, M0477 and M0478, beside those of any XML.
+//! skipped.
+
+mod diagnostics;
 
 use indexmap::IndexMap;
-use motet_syntax::{Diagnostic, FileId, Related, Severity, Source, Span, suggest};
+use motet_syntax::{Diagnostic, FileId, Severity, Source, Span, suggest};
 use roxmltree::Node;
 use rustc_hash::FxHashMap;
 use smol_str::SmolStr;
 
+pub use self::diagnostics::CODES;
+use self::diagnostics::{GroupCycle, NotSrdf, TakenPart, UnknownPart};
 use crate::urdf::{Urdf, XmlDialect, XmlDocument, XmlSpans, children, is_own, unknown};
 
 /// SRDF after reading; links and joints are indices into the URDF.
@@ -248,31 +252,4 @@ fn ring(groups: &IndexMap<SmolStr, JointGroup>) -> Option<Vec<SmolStr>> {
         }
     }
     None
-}
-
-motet_syntax::mistakes! {
-    pub const CODES;
-
-    /// XML, but of something else.
-    NotSrdf("M0471", Error) { found: String }
-    message(m) { format!("the root element is `<{}>`, an SRDF starts with `<robot>`", m.found) }
-
-    /// A link, joint or group that is not there.
-    UnknownPart("M0472", Error) { what: &'static str, name: String, near: Option<String> }
-    message(m) { format!("there is no {} `{}`", m.what, m.name.escape_debug()) }
-    help(m) { m.near.as_ref().map(|near| format!("did you mean `{near}`?")) }
-
-    /// Two groups, or two end effectors, of one name.
-    TakenPart("M0477", Error) { what: &'static str, name: String, first: Span }
-    message(m) { format!("there are two {}s `{}`", m.what, m.name.escape_debug()) }
-    help(m) { Some(format!("give each {} a name of its own", m.what)) }
-    related(m) { vec![Related::new("the first is here", m.first)] }
-
-    /// Groups that contain each other.
-    GroupCycle("M0478", Error) { chain: Vec<String> }
-    message(m) {
-        let chain: Vec<String> = m.chain.iter().map(|name| format!("`{}`", name.escape_debug())).collect();
-        format!("a group contains itself: {}", chain.join(" contains "))
-    }
-    help(_m) { Some("let the larger group contain the smaller, and not the other way round".to_owned()) }
 }

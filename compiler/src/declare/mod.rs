@@ -26,6 +26,5 @@ pub(crate) use self::builder::{MAX_INITIALLY, MAX_PATTERNS};
 pub use self::card::MAX_RESOURCES;
 pub use self::library::Library;
 
-pub(crate) use self::card::CODES as CARD_CODES;
 pub(crate) use self::contract::resolve_type;
 pub(crate) use self::library::{EffectDef, LastsDef, NeedDef, PrimitiveDef, ResourceSet};

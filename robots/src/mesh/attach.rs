@@ -1,10 +1,11 @@
-//! Meshes of a URDF: each is replaced by solids that enclose it. Diagnostics M0448 and M0449.
+//! Meshes of a URDF: each is replaced by solids that enclose it.
 
 use indexmap::IndexMap;
 use motet_syntax::{Diagnostic, FileId, Source, Span};
 use roxmltree::Node;
 
 use super::cover::cover;
+use super::diagnostics::{BadMesh, UnreadMesh};
 use super::read;
 use super::triangle::Triangle;
 use crate::quaternion::compose;
@@ -176,23 +177,4 @@ pub fn locate(file: &str, folder: &str, search: &[String]) -> Vec<String> {
         None if file.starts_with('/') => vec![file.to_owned()],
         None => vec![join(folder, file)],
     }
-}
-
-motet_syntax::mistakes! {
-    pub const CODES;
-
-    /// A mesh of which nothing is known: no file, one in a format that is not read, or that of a scene.
-    UnreadMesh("M0448", Warning) { file: String, problem: String, help: String }
-    message(m) {
-        format!(
-            "the mesh `{}` cannot be read, so no motion is computed: {}",
-            m.file.escape_debug(),
-            m.problem
-        )
-    }
-    help(m) { Some(m.help.clone()) }
-
-    /// A mesh that is broken, too large, or where none may be.
-    BadMesh("M0449", Error) { file: String, problem: String }
-    message(m) { format!("the mesh `{}` cannot be used: {}", m.file.escape_debug(), m.problem) }
 }

@@ -7,11 +7,13 @@
 mod attach;
 mod collada;
 mod cover;
+mod diagnostics;
 mod read;
 mod triangle;
 
-pub(crate) use attach::UnreadMesh;
-pub use attach::{CODES, MeshFile, attach, locate};
+pub use attach::{MeshFile, attach, locate};
 pub use cover::cover;
+pub use diagnostics::CODES;
+pub(crate) use diagnostics::UnreadMesh;
 pub use read::{MAX_BYTES, read};
 pub use triangle::{MAX_TRIANGLES, Triangle};

@@ -1,13 +1,13 @@
 //! Protocols of chats as data: the address of requests, the header of the key, and the places in an answer
 //! that hold its text, its end and its tokens. `reply_reader` reads answers by it.
 
-use motet_decode::export::{self, Dialect};
+use motet_decode::export::{Dialect, Protocol};
 use motet_planner::model::Finish;
 use serde_json::Value;
 
-/// Protocol of a server.
+/// Requests and answers of a [`Protocol`] on the wire.
 #[derive(Debug)]
-pub(crate) struct Protocol {
+pub(crate) struct WireProtocol {
     /// Path of requests, behind the address of a server.
     pub(crate) path: &'static str,
     /// Name of the header with the key, and what stands before the key.
@@ -28,7 +28,7 @@ pub(crate) struct Protocol {
     pub(crate) last: &'static [&'static str],
 }
 
-/// JsonPlace in an answer or an event.
+/// Place in the JSON of an answer or an event.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct JsonPlace {
     /// Type of the events that have it; empty for all.
@@ -74,7 +74,7 @@ const LENGTH: Meaning = Meaning::Ended(Finish::Length);
 
 /// Chat completions and the chat of Ollama. Servers of one are asked in the other, so answers of both are
 /// read.
-static CHAT: Protocol = Protocol {
+static CHAT: WireProtocol = WireProtocol {
     path: "/v1/chat/completions",
     key_header: ("authorization", "Bearer "),
     headers: &[],
@@ -100,9 +100,9 @@ static CHAT: Protocol = Protocol {
     last: &[],
 };
 
-static OLLAMA: Protocol = Protocol { path: "/api/chat", ..CHAT };
+static OLLAMA: WireProtocol = WireProtocol { path: "/api/chat", ..CHAT };
 
-static RESPONSES: Protocol = Protocol {
+static RESPONSES: WireProtocol = WireProtocol {
     path: "/v1/responses",
     texts: &[
         of("response.output_text.delta", "/delta"),
@@ -133,7 +133,7 @@ static RESPONSES: Protocol = Protocol {
     ..CHAT
 };
 
-static MESSAGES: Protocol = Protocol {
+static MESSAGES: WireProtocol = WireProtocol {
     path: "/v1/messages",
     key_header: ("x-api-key", ""),
     headers: &[("anthropic-version", "2023-06-01")],
@@ -159,7 +159,7 @@ static MESSAGES: Protocol = Protocol {
     ..CHAT
 };
 
-static GEMINI: Protocol = Protocol {
+static GEMINI: WireProtocol = WireProtocol {
     path: "/v1beta/models",
     key_header: ("x-goog-api-key", ""),
     texts: &[place("/candidates/0/content/parts/*/text")],
@@ -177,14 +177,14 @@ static GEMINI: Protocol = Protocol {
     ..CHAT
 };
 
-/// Protocol of a dialect; chat completions without one.
-pub(crate) fn protocol(dialect: Option<Dialect>) -> &'static Protocol {
-    match dialect.map_or(export::Protocol::Chat, Dialect::protocol) {
-        export::Protocol::Chat => &CHAT,
-        export::Protocol::Ollama => &OLLAMA,
-        export::Protocol::Responses => &RESPONSES,
-        export::Protocol::Messages => &MESSAGES,
-        export::Protocol::Gemini => &GEMINI,
+/// Wire protocol of a dialect; chat completions without one.
+pub(crate) fn protocol(dialect: Option<Dialect>) -> &'static WireProtocol {
+    match dialect.map_or(Protocol::Chat, Dialect::protocol) {
+        Protocol::Chat => &CHAT,
+        Protocol::Ollama => &OLLAMA,
+        Protocol::Responses => &RESPONSES,
+        Protocol::Messages => &MESSAGES,
+        Protocol::Gemini => &GEMINI,
     }
 }
 

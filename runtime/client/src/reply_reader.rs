@@ -7,7 +7,7 @@ use motet_decode::export::Dialect;
 use motet_planner::model::{Finish, ModelError, News, TokenUsage};
 use serde_json::Value;
 
-use crate::protocol::{self, Meaning, Protocol, kind};
+use crate::protocol::{self, Meaning, WireProtocol, kind};
 use crate::settings::{ApiKey, ClientSettings};
 
 /// Number of characters of a server's words that are shown.
@@ -15,7 +15,7 @@ const SHOWN_CHARS: usize = 320;
 
 /// Reader of one reply.
 pub(crate) struct ReplyReader<'a> {
-    protocol: &'static Protocol,
+    protocol: &'static WireProtocol,
     key: Option<&'a ApiKey>,
     news: &'a Sender<News>,
     /// End of the text so far that may be the beginning of a key.
@@ -116,7 +116,7 @@ impl<'a> ReplyReader<'a> {
 }
 
 /// Message of an error in an answer.
-fn error(protocol: &Protocol, answer: &Value) -> Option<String> {
+fn error(protocol: &WireProtocol, answer: &Value) -> Option<String> {
     protocol.errors.iter().find_map(|place| place.texts(answer).next())
 }
 

@@ -3,6 +3,7 @@
 //! The measures read text, not types: they look for declarations at the beginning of a line, as rustfmt
 //! leaves them.
 
+mod codes;
 mod docs;
 mod files;
 mod imports;
@@ -79,6 +80,8 @@ pub(crate) fn run(root: &Path, options: &[&str]) -> Result<bool, String> {
     let mut whole = vec![names::shared(&files, &house.stages)];
     whole.extend(imports::circles(&files));
     whole.push(Measure::count("equal-places", repeats::equal(&files)));
+    let table = std::fs::read_to_string(root.join("ARCHITECTURE.md")).map_err(|error| error.to_string())?;
+    whole.push(codes::misplaced(&files, &table));
     whole.push(library::spelled(&files, &library::declared(root)?));
     if let Some(under) = under {
         files.retain(|file| file.path.starts_with(under));

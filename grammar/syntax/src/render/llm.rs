@@ -43,7 +43,7 @@ pub fn llm(diagnostics: &[Diagnostic], sources: &Sources) -> String {
 /// Severity, message and advice of a finding, and the kind of its place.
 type FindingKey<'d> = (Severity, &'d str, Option<&'d str>, Option<&'d str>);
 
-/// DocumentPlace of a finding in a document.
+/// Place of a finding in a document.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 enum DocumentPlace {
     /// A step, such as `2.then.1`, or `finally.1` in the cleanup of the policy.

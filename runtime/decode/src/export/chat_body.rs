@@ -1,4 +1,4 @@
-//! Bodies of chat requests, in the protocol of a server. Grammars are added by `server_dialect`.
+//! Bodies of chat requests, in the protocol of a server. Grammars are added by `request_constraint`.
 
 use serde_json::{Map, Value, json};
 

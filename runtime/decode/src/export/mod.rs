@@ -14,7 +14,7 @@ mod ebnf;
 mod limits;
 mod notation;
 mod schema;
-mod server_dialect;
+mod request_constraint;
 mod terminal;
 
 pub use chat_body::{ChatBody, Delivery, Turn, TurnImage, TurnRole};
@@ -22,7 +22,7 @@ pub use dialect::{Dialect, Protocol};
 pub use ebnf::{EbnfExpr, EbnfGrammar, EbnfRule, RuleId};
 pub use limits::{LimitWarning, warnings};
 pub use notation::Header;
-pub use server_dialect::{GrammarCarrier, Prompt, probe_body, request_body, request_constraint};
+pub use request_constraint::{GrammarCarrier, Prompt, probe_body, request_body, request_constraint};
 
 use motet_syntax::Syntax;
 use serde_json::Value;
