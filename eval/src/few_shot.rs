@@ -6,7 +6,7 @@
 use std::time::Duration;
 
 use motet_decode::Grammar;
-use motet_planner::model::{Finish, Message, Model, ModelError, News, Reply, Role};
+use motet_planner::model::{Finish, Message, Model, ModelError, Reply, ReplyEvent, Role};
 use serde::Deserialize;
 use serde_json::Value;
 
@@ -114,8 +114,8 @@ impl Model for FileModel {
 struct WholeReply(Option<String>);
 
 impl Reply for WholeReply {
-    fn next(&mut self, _wait: Duration) -> News {
-        self.0.take().map_or(News::End(Finish::Stop), News::Piece)
+    fn next(&mut self, _wait: Duration) -> ReplyEvent {
+        self.0.take().map_or(ReplyEvent::End(Finish::Stop), ReplyEvent::Piece)
     }
 }
 

@@ -37,7 +37,7 @@ pub fn for_goals(opened: &ProjectSession, conditions: &[String]) -> Result<Plann
 pub fn aims(texts: &[String]) -> Result<Vec<Aim>, NoPlan> {
     let aim = |(index, text): (usize, &String)| {
         let goal = Goal::read(text, Persistence::ToTheEnd)?;
-        Ok(Aim { goal, name: format!("goal_{}", index + 1), only_if: None, awaits: None, deed: None })
+        Ok(Aim { goal, name: format!("goal_{}", index + 1), only_if: None, awaits: None, named_step: None })
     };
     texts.iter().enumerate().map(aim).collect()
 }

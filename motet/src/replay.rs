@@ -8,14 +8,14 @@ use motet_runtime::{Snapshot, Time};
 
 /// Position in a journal.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub enum Moment {
+pub enum JournalPosition {
     /// After the entry with this number.
     Entry(u64),
     /// After all entries up to this time.
     Time(Time),
 }
 
-impl Moment {
+impl JournalPosition {
     /// Is `true` if the entry comes after this position.
     fn is_before(self, seq: u64, at: Time) -> bool {
         match self {
@@ -28,7 +28,7 @@ impl Moment {
 /// Replay up to a moment or to the first difference.
 #[derive(Debug, Default)]
 pub struct JournalPlayer {
-    last: Option<Moment>,
+    last: Option<JournalPosition>,
     replay: Option<EngineReplay>,
     entries: usize,
     effects: usize,
@@ -40,7 +40,7 @@ pub struct JournalPlayer {
 impl JournalPlayer {
     /// Replay that stops after a position, or else at the end.
     #[must_use]
-    pub fn until(last: Option<Moment>) -> Self {
+    pub fn until(last: Option<JournalPosition>) -> Self {
         Self { last, ..Self::default() }
     }
 

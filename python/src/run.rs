@@ -6,7 +6,7 @@ use motet::host::remote::protocol::Hello;
 use motet::host::remote::{DriverTimeouts, RemoteDriver};
 use motet::planner::runtime_check::CheckMode;
 use motet::project::{SimulationInputs, read_profile, read_scene};
-use motet::replay::{JournalPlayer, Moment, described};
+use motet::replay::{JournalPlayer, JournalPosition, described};
 use motet::run::{RecordedRun, RunPlan, recorded, remote_settings, run_id, simulator, state_facts};
 use motet::runtime::journal::JournalEntry;
 use motet::runtime::{Driver as _, DriverClock, EngineSettings, RunControl, Time};
@@ -72,12 +72,14 @@ fn replayed(player: &JournalPlayer, has_state: bool) -> PyResult<Replayed> {
     Ok((player.verdict(), state.as_ref().map(described).unwrap_or_default(), player.json(state.as_ref())))
 }
 
-fn moment(at: Option<f64>, entry: Option<u64>) -> PyResult<Option<Moment>> {
+fn moment(at: Option<f64>, entry: Option<u64>) -> PyResult<Option<JournalPosition>> {
     match (at, entry) {
         (Some(_), Some(_)) => Err(wrong("give either a time or the number of an entry")),
-        (Some(at), None) if at.is_finite() && at >= 0.0 => Ok(Some(Moment::Time(Time::from_secs(at)))),
+        (Some(at), None) if at.is_finite() && at >= 0.0 => {
+            Ok(Some(JournalPosition::Time(Time::from_secs(at))))
+        }
         (Some(at), None) => Err(wrong(format!("{at} s is no time of a run"))),
-        (None, entry) => Ok(entry.map(Moment::Entry)),
+        (None, entry) => Ok(entry.map(JournalPosition::Entry)),
     }
 }
 

@@ -3,7 +3,9 @@
 use crate::link::{Fleet, RESULTS, STATES, ServerArgs, name, refusal, within_message};
 use crate::run::{Events, OrderFolder, RunSettings, tell_page};
 use crate::ship::Shipment;
-use crate::signed::{SignedWords, TrustFile, UNTRUSTED, What, Words, is_name, open, verify};
+use crate::signed::{
+    Instruction, OperatorMessage, SignedMessage, TrustFile, UNTRUSTED, is_name, open, verify,
+};
 use async_nats::connection::State;
 use async_nats::jetstream::{AckKind, Message};
 use futures::StreamExt as _;
@@ -237,7 +239,12 @@ impl Agent {
 
     /// Refuses an order of which nothing has moved. `order` is what the message says if its signature is
     /// right.
-    async fn refuse(&self, message: &Message, order: Option<&SignedWords>, why: &str) -> Result<(), String> {
+    async fn refuse(
+        &self,
+        message: &Message,
+        order: Option<&SignedMessage>,
+        why: &str,
+    ) -> Result<(), String> {
         eprintln!("motet-fleet: an order is refused: {}", why.escape_debug());
         if let Some((id, digest)) = claimed(&message.payload) {
             let result = json!({"state": "refused", "why": why});
@@ -271,8 +278,13 @@ impl Agent {
     }
 
     /// Runs an order to its end, or follows its run that goes on already.
-    async fn run(&self, words: &Words, folder: &OrderFolder, message: &Message) -> Result<Value, String> {
-        if !matches!(words.what, What::Run { .. }) {
+    async fn run(
+        &self,
+        words: &OperatorMessage,
+        folder: &OrderFolder,
+        message: &Message,
+    ) -> Result<Value, String> {
+        if !matches!(words.what, Instruction::Run { .. }) {
             return Ok(json!({"state": "refused", "why": "the words are no order"}));
         }
         let (mut child, mut resumes, mut worked, mut is_stop_told) = (None, 0, Instant::now(), false);
@@ -342,7 +354,7 @@ impl Agent {
         self.current().as_ref().is_some_and(|current| current.order == order)
     }
 
-    // Words of operators.
+    // Messages of operators.
 
     /// Answers requests: `motet.ROBOT.stop`, which needs no signature, and `motet.ROBOT.answer`, which does.
     async fn take_words(&self) -> Result<(), String> {
@@ -396,7 +408,7 @@ impl Agent {
 
     async fn answer(&self, bytes: &[u8]) -> Result<Value, String> {
         let words = open(bytes, &self.trust.now(), &self.robot)?;
-        let What::Answer { order, question, text } = words.what else {
+        let Instruction::Answer { order, question, text } = words.what else {
             return Err("the words are no answer".to_owned());
         };
         let current = self.current().clone().filter(|current| current.order == order);
@@ -485,6 +497,6 @@ pub(crate) fn claimed(bytes: &[u8]) -> Option<(String, String)> {
     let signed: Value = serde_json::from_slice(bytes).ok()?;
     let body: Value = serde_json::from_str(signed.get("body")?.as_str()?).ok()?;
     let id = body.get("id")?.as_str().filter(|id| is_name(id))?.to_owned();
-    let what: Option<What> = serde_json::from_value(body.get("what")?.clone()).ok();
+    let what: Option<Instruction> = serde_json::from_value(body.get("what")?.clone()).ok();
     Some((id, what.map(|what| what.digest()).unwrap_or_default()))
 }

@@ -1,6 +1,6 @@
 //! The server: streams, buckets and subjects.
 
-use crate::signed::{What, is_name, new_id, sign};
+use crate::signed::{Instruction, is_name, new_id, sign};
 use async_nats::jetstream::consumer::PullConsumer;
 use async_nats::jetstream::{self, kv, stream};
 use async_nats::{Client, ConnectOptions};
@@ -199,7 +199,7 @@ impl Fleet {
     ) -> Result<Value, String> {
         let (order, question) = question.split_once('/').ok_or("write --question ORDER/NUMBER")?;
         let (order, question) = (order.to_owned(), question.to_owned());
-        let what = What::Answer { order, question, text: text.to_owned() };
+        let what = Instruction::Answer { order, question, text: text.to_owned() };
         self.request(robot, "answer", sign(key, &new_id()?, robot, 60, what)?).await
     }
 }

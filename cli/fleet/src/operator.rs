@@ -2,7 +2,7 @@
 
 use crate::journal;
 use crate::link::{ANSWERS, Fleet, POLICIES, RESULTS, STATES, SWAPS, ServerArgs, name, refusal, say};
-use crate::signed::{What, new_id, new_key, now, private_key, sign};
+use crate::signed::{Instruction, new_id, new_key, now, private_key, sign};
 use async_nats::jetstream::kv;
 use futures::StreamExt as _;
 use serde_json::{Value, json};
@@ -183,7 +183,7 @@ async fn send(fleet: &Fleet, args: &SendArgs) -> Result<u8, String> {
     let id = args.id.clone().map_or_else(new_id, Ok)?;
     let state = args.state.as_deref().map(serde_json::from_str).transpose();
     let state = state.map_err(|error| format!("--state: {error}"))?;
-    let what = What::Run { policy: read(&args.policy)?, state };
+    let what = Instruction::Run { policy: read(&args.policy)?, state };
     let digest = what.digest();
     let signed = sign(&private_key(&args.key)?, &id, &args.robot, args.life, what)?;
     let bucket = fleet.bucket(RESULTS).await?;
@@ -264,7 +264,7 @@ async fn swap(fleet: &Fleet, args: &SwapArgs) -> Result<u8, String> {
             order.ok_or("no run goes on")?
         }
     };
-    let what = What::Swap { order, policy: read(&args.policy)? };
+    let what = Instruction::Swap { order, policy: read(&args.policy)? };
     let signed = sign(&private_key(&args.key)?, &id, &args.robot, 60, what)?;
     let results = fleet.bucket(SWAPS).await?;
     let mut told = results.watch(&args.robot).await.map_err(|error| error.to_string())?;

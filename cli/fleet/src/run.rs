@@ -1,6 +1,6 @@
 //! The run of one order: a process `motet run` with a journal, which goes on whatever becomes of the agent.
 
-use crate::signed::{SignedWords, What};
+use crate::signed::{Instruction, SignedMessage};
 use serde_json::{Value, json};
 use std::fs::File;
 use std::io::{BufRead as _, BufReader, Read as _, Seek as _, SeekFrom, Write as _};
@@ -39,11 +39,11 @@ pub(crate) struct OrderFolder(pub(crate) PathBuf);
 
 impl OrderFolder {
     /// Makes the folder of an order, with the order in it, before anything moves.
-    pub(crate) fn create(root: &Path, order: &SignedWords) -> Result<Self, String> {
+    pub(crate) fn create(root: &Path, order: &SignedMessage) -> Result<Self, String> {
         let words = &order.words;
         let folder = Self(root.join(&words.id));
         std::fs::create_dir_all(&folder.0).map_err(|error| format!("{}: {error}", folder.0.display()))?;
-        if let What::Run { policy, state } = &words.what {
+        if let Instruction::Run { policy, state } = &words.what {
             if let Some(state) = state {
                 folder.write("state.json", state.to_string().as_bytes())?;
             }
@@ -74,7 +74,7 @@ impl OrderFolder {
     }
 
     /// The order with the key of who gave it, if it is there as a whole.
-    pub(crate) fn order(&self) -> Option<SignedWords> {
+    pub(crate) fn order(&self) -> Option<SignedMessage> {
         serde_json::from_slice(&std::fs::read(self.0.join("order.json")).ok()?).ok()
     }
 

@@ -1,5 +1,5 @@
-//! Signed words for a robot: orders, policies and answers. A robot does nothing for words whose signature is
-//! not of a key that it trusts, that are meant for another robot, or that are too old.
+//! Signed messages to a robot: orders, policies and answers. A robot ignores a message whose signature is not
+//! of a key that it trusts, that is meant for another robot, or that is too old.
 
 use ed25519_dalek::{Signature, Signer as _, SigningKey, VerifyingKey};
 use serde::{Deserialize, Serialize};
@@ -11,14 +11,14 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::{SystemTime, UNIX_EPOCH};
 
-/// Greatest size of signed words in bytes.
+/// Greatest size of a signed message in bytes.
 pub(crate) const MAX_BYTES: usize = 900 * 1024;
 /// Greatest lifetime of an order in s.
 const MAX_LIFE: u64 = 7 * 24 * 3600;
 /// Greatest difference of two clocks in s.
 const CLOCKS: u64 = 60;
 
-/// Words with a signature. The signature is of the bytes of `body`, which is JSON.
+/// Message with a signature. The signature is of the bytes of `body`, which is JSON.
 #[derive(Serialize, Deserialize, Debug)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Signed {
@@ -28,32 +28,32 @@ pub(crate) struct Signed {
     signature: String,
 }
 
-/// Words for one robot.
+/// Message to one robot.
 #[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Words {
-    /// Name that no other words have.
+pub(crate) struct OperatorMessage {
+    /// Name that no other message has.
     pub(crate) id: String,
     pub(crate) robot: String,
-    /// Seconds since 1970 at which they were signed, and until which they count.
+    /// Seconds since 1970 at which it was signed, and until which it counts.
     pub(crate) at: u64,
     pub(crate) until: u64,
-    pub(crate) what: What,
+    pub(crate) what: Instruction,
 }
 
-/// Words with the public key that signed them, whether or not a robot trusts it.
+/// Message with the public key that signed it, whether or not a robot trusts it.
 #[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct SignedWords {
+pub(crate) struct SignedMessage {
     /// Public key in hexadecimal digits.
     pub(crate) key: String,
-    pub(crate) words: Words,
+    pub(crate) words: OperatorMessage,
 }
 
-/// What a robot is to do.
+/// Instruction to a robot.
 #[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub(crate) enum What {
+pub(crate) enum Instruction {
     /// Run a policy, as text or JSON, from a state.
     Run {
         policy: String,
@@ -66,7 +66,7 @@ pub(crate) enum What {
     Answer { order: String, question: String, text: String },
 }
 
-impl What {
+impl Instruction {
     /// Digest by which two orders with the same id are told apart: 16 hexadecimal digits.
     pub(crate) fn digest(&self) -> String {
         let json = serde_json::to_vec(self).unwrap_or_default();
@@ -167,11 +167,16 @@ pub(crate) fn sign(
     id: &str,
     robot: &str,
     life: u64,
-    what: What,
+    what: Instruction,
 ) -> Result<Vec<u8>, String> {
     let at = now();
-    let words =
-        Words { id: id.to_owned(), robot: robot.to_owned(), at, until: at + life.min(MAX_LIFE), what };
+    let words = OperatorMessage {
+        id: id.to_owned(),
+        robot: robot.to_owned(),
+        at,
+        until: at + life.min(MAX_LIFE),
+        what,
+    };
     let body = serde_json::to_string(&words).map_err(|error| error.to_string())?;
     let signature = hex(&key.sign(body.as_bytes()).to_bytes());
     let signed = Signed { body, key: hex(key.verifying_key().as_bytes()), signature };
@@ -183,7 +188,7 @@ pub(crate) fn sign(
     }
 }
 
-impl Words {
+impl OperatorMessage {
     /// Says since when words do not count any more.
     pub(crate) fn check_time(&self) -> Result<(), String> {
         let late = now().saturating_sub(self.until);
@@ -191,23 +196,23 @@ impl Words {
     }
 }
 
-/// Words of a trusted key for this robot that still count.
-pub(crate) fn open(bytes_of: &[u8], trust: &Trust, robot: &str) -> Result<Words, String> {
+/// Message of a trusted key to this robot that still counts.
+pub(crate) fn open(bytes_of: &[u8], trust: &Trust, robot: &str) -> Result<OperatorMessage, String> {
     let words = read(bytes_of, trust, robot)?;
     words.check_time().map(|()| words)
 }
 
-/// Words of a trusted key for this robot, whether or not they still count.
-pub(crate) fn read(bytes_of: &[u8], trust: &Trust, robot: &str) -> Result<Words, String> {
-    let SignedWords { key, words } = verify(bytes_of, robot)?;
+/// Message of a trusted key to this robot, whether or not it still counts.
+pub(crate) fn read(bytes_of: &[u8], trust: &Trust, robot: &str) -> Result<OperatorMessage, String> {
+    let SignedMessage { key, words } = verify(bytes_of, robot)?;
     if trust.has(&key) { Ok(words) } else { Err(UNTRUSTED.to_owned()) }
 }
 
 /// Reason of a refusal.
 pub(crate) const UNTRUSTED: &str = "their key is not trusted";
 
-/// Words for this robot with a right signature, whoever signed them and whether or not they still count.
-pub(crate) fn verify(bytes_of: &[u8], robot: &str) -> Result<SignedWords, String> {
+/// Message to this robot with a right signature, whoever signed it and whether or not it still counts.
+pub(crate) fn verify(bytes_of: &[u8], robot: &str) -> Result<SignedMessage, String> {
     if bytes_of.len() > MAX_BYTES {
         return Err(format!("they have more than {MAX_BYTES} bytes"));
     }
@@ -219,7 +224,7 @@ pub(crate) fn verify(bytes_of: &[u8], robot: &str) -> Result<SignedWords, String
         .map(|bytes| Signature::from_bytes(&bytes))
         .ok_or("their signature is none")?;
     key.verify_strict(signed.body.as_bytes(), &signature).map_err(|_| "their signature is wrong")?;
-    let words: Words =
+    let words: OperatorMessage =
         serde_json::from_str(&signed.body).map_err(|error| format!("they cannot be read: {error}"))?;
     if words.robot != robot {
         return Err(format!("they are for the robot `{}`", words.robot.escape_debug()));
@@ -230,7 +235,7 @@ pub(crate) fn verify(bytes_of: &[u8], robot: &str) -> Result<SignedWords, String
     if words.at > now() + CLOCKS || words.until > words.at + MAX_LIFE {
         return Err("their times are wrong".to_owned());
     }
-    Ok(SignedWords { key: hex(key.as_bytes()), words })
+    Ok(SignedMessage { key: hex(key.as_bytes()), words })
 }
 
 /// True for names of robots and orders: 1 to 64 letters, digits, `_` and `-`.
@@ -272,7 +277,8 @@ mod tests {
     }
 
     fn said(key: &SigningKey, robot: &str, life: u64) -> Vec<u8> {
-        let what = What::Swap { order: "order-0".to_owned(), policy: "policy a for hsr { done }".to_owned() };
+        let what =
+            Instruction::Swap { order: "order-0".to_owned(), policy: "policy a for hsr { done }".to_owned() };
         sign(key, "order-1", robot, life, what).unwrap()
     }
 
@@ -288,8 +294,9 @@ mod tests {
         changed.body = changed.body.replace("policy a", "policy b");
         assert_eq!(wrong(&serde_json::to_vec(&changed).unwrap(), "kitchen_1"), "their signature is wrong");
         assert!(wrong(b"{}", "kitchen_1").starts_with("they are not signed"));
-        let what = What::Swap { order: String::new(), policy: String::new() };
-        let words = Words { id: "a/b".to_owned(), robot: "r".to_owned(), at: now(), until: now(), what };
+        let what = Instruction::Swap { order: String::new(), policy: String::new() };
+        let words =
+            OperatorMessage { id: "a/b".to_owned(), robot: "r".to_owned(), at: now(), until: now(), what };
         let body = serde_json::to_string(&words).unwrap();
         let signature = hex(&key(1).sign(body.as_bytes()).to_bytes());
         let signed = Signed { body, key: hex(key(1).verifying_key().as_bytes()), signature };
@@ -298,7 +305,7 @@ mod tests {
 
     #[test]
     fn digest_tells_orders_apart_and_not_their_times() {
-        let what = |state: &str| What::Run {
+        let what = |state: &str| Instruction::Run {
             policy: "policy a for hsr { done }".to_owned(),
             state: serde_json::from_str(state).unwrap(),
         };
@@ -315,9 +322,10 @@ mod tests {
     #[test]
     fn words_that_count_no_more_are_read_and_not_opened() {
         let trust = Trust(vec![key(1).verifying_key()]);
-        let what = What::Run { policy: String::new(), state: None };
+        let what = Instruction::Run { policy: String::new(), state: None };
         let times = (now() - 100, now() - 40);
-        let words = Words { id: "a".to_owned(), robot: "r".to_owned(), at: times.0, until: times.1, what };
+        let words =
+            OperatorMessage { id: "a".to_owned(), robot: "r".to_owned(), at: times.0, until: times.1, what };
         let body = serde_json::to_string(&words).unwrap();
         let signature = hex(&key(1).sign(body.as_bytes()).to_bytes());
         let signed = Signed { body, key: hex(key(1).verifying_key().as_bytes()), signature };

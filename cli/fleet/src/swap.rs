@@ -3,7 +3,7 @@
 use crate::agent::{Agent, LOOKS, claimed};
 use crate::link::{POLICIES, SWAPS, within_message};
 use crate::run::{OrderFolder, tell_page};
-use crate::signed::{What, Words, is_name, read};
+use crate::signed::{Instruction, OperatorMessage, is_name, read};
 use async_nats::jetstream::kv::Operation;
 use futures::StreamExt as _;
 use serde_json::{Value, json};
@@ -64,7 +64,7 @@ impl Agent {
     /// says what became of it then; `None` if the server knows.
     async fn swap(&self, bytes: &[u8]) -> Result<Option<(String, Value)>, String> {
         let words = read(bytes, &self.trust.now(), &self.robot)?;
-        let (id, What::Swap { order, policy }) = (words.id.clone(), &words.what) else {
+        let (id, Instruction::Swap { order, policy }) = (words.id.clone(), &words.what) else {
             return Err("the words have no policy".to_owned());
         };
         // A policy that was offered once is not offered again, also not to a later order.
@@ -90,7 +90,7 @@ impl Agent {
     }
 
     /// Offers a policy to the run of an order; its answer. A run that is continued gets a while.
-    async fn offer(&self, words: &Words, order: &str, policy: &str) -> Result<Value, String> {
+    async fn offer(&self, words: &OperatorMessage, order: &str, policy: &str) -> Result<Value, String> {
         if !is_name(order) {
             return Err("the order has no name".to_owned());
         }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use motet::replay::{JournalPlayer, Moment, described};
+use motet::replay::{JournalPlayer, JournalPosition, described};
 use motet_runtime::Time;
 
 use crate::error::{CliError, Exit, journal_error};
@@ -23,22 +23,22 @@ pub(crate) struct ReplayArgs {
     folder: PathBuf,
     /// Stop after an entry, given by number or time, and show the state there
     #[arg(long, value_name = "NUMBER|TIME", value_parser = moment)]
-    until: Option<Moment>,
+    until: Option<JournalPosition>,
     /// Show the state after an entry, given by number or time
     #[arg(long, value_name = "NUMBER|TIME", value_parser = moment, conflicts_with = "until")]
-    at: Option<Moment>,
+    at: Option<JournalPosition>,
     /// Print the state and the result as JSON
     #[arg(long)]
     json: bool,
 }
 
 /// Reads a position in a journal.
-fn moment(text: &str) -> Result<Moment, String> {
+fn moment(text: &str) -> Result<JournalPosition, String> {
     if let Ok(number) = text.parse() {
-        return Ok(Moment::Entry(number));
+        return Ok(JournalPosition::Entry(number));
     }
     let wrong = || "write the number of an entry, or a time such as 12.5s".to_owned();
-    duration(text).map(|secs| Moment::Time(Time::from_secs(secs))).map_err(|_| wrong())
+    duration(text).map(|secs| JournalPosition::Time(Time::from_secs(secs))).map_err(|_| wrong())
 }
 
 /// Runs the command.

@@ -6,7 +6,7 @@ use motet_client::{Client, ClientSettings, EncodedImage};
 use motet_planner::builtin::{PlanError, PlannedRequest};
 use motet_planner::model::{self, ModelEvent, ModelObserver, ModelPlanner, Role, Start};
 use motet_planner::runtime_check::CheckMode;
-use motet_planner::{Builtin, BuiltinBeside, PlanRequest, Planner, RemainingSteps, Wait};
+use motet_planner::{BackgroundBuiltin, Builtin, PlanRequest, Planner, RemainingSteps, Wait};
 use motet_project::files::read_small;
 use motet_syntax::render::is_steering;
 use serde_json::json;
@@ -47,7 +47,7 @@ pub(super) fn planner(
         // In virtual time a plan takes no time, so that every run is the same.
         return Ok(match speed.verifies() {
             CheckMode::AtOnce => Box::new(Builtin),
-            CheckMode::Beside => Box::new(BuiltinBeside::default()),
+            CheckMode::Beside => Box::new(BackgroundBuiltin::default()),
         });
     }
     let client = client(flags)?;

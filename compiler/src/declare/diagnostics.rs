@@ -8,6 +8,7 @@ use smol_str::SmolStr;
 use super::name::{article, list, near};
 use super::unbound::Unbound;
 use super::words;
+use crate::ir::MotionKind;
 
 pub(crate) fn replace(span: Span, text: &str) -> Option<Fix> {
     Some(Fix { title: format!("write `{text}`"), edits: vec![Edit { span, text: text.to_owned() }] })
@@ -169,8 +170,8 @@ motet_syntax::mistakes! {
     message(m) { format!("there is no motion `{}`", m.name) }
     help(m) {
         did_you_mean(m.near.as_ref()).or_else(|| {
-            let all = "`go_to`, `reach`, `put`, `pull`, `push`, `offer`, `look` and `posture`";
-            Some(format!("the motions are {all}"))
+            let names = MotionKind::ALL.iter().map(|kind| SmolStr::new_static(kind.name()));
+            Some(format!("the motions are {}", list(names)))
         })
     }
 

@@ -6,7 +6,7 @@ use motet_syntax::{About, Diagnostic, Related, Severity, Span};
 use smol_str::SmolStr;
 
 use super::domain::{MotionChecker, PossibleWorld};
-use super::plain::{plain_reason, target};
+use super::plain_reason::{plain_reason, target};
 use crate::ir::{StepId, StepKind, Term};
 
 /// Parts of the diagnostic of an infeasible motion.

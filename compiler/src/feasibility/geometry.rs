@@ -15,7 +15,7 @@ use motet_stdlib::lang;
 use rustc_hash::FxHashMap;
 use smol_str::{SmolStr, format_smolstr};
 
-use super::plain::target;
+use super::plain_reason::target;
 use crate::declare::Library;
 use crate::environment::InitialState;
 use crate::ir::Fluent;

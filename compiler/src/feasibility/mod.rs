@@ -13,7 +13,7 @@ mod domain;
 mod geometry;
 mod keep;
 mod motion;
-mod plain;
+mod plain_reason;
 mod sight;
 mod transfer;
 mod verdict;

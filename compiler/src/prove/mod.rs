@@ -20,7 +20,7 @@ mod lints;
 mod monitor;
 pub(crate) mod suspended;
 pub(crate) mod symbols;
-pub(crate) mod tested;
+pub(crate) mod test_outcomes;
 
 use motet_syntax::ast::MAX_MISTAKES;
 use motet_syntax::{Diagnostic, Severity, Span};
@@ -35,7 +35,7 @@ use self::effects::{FactChange, PerceptionLifetime};
 use self::evaluation::CallFrame;
 use self::suspended::{ProofInput, ProofTarget};
 use self::symbols::Symbols;
-use self::tested::TestTable;
+use self::test_outcomes::TestTable;
 use crate::analysis::{Domain, Enclosing};
 use crate::declare::{Library, PrimitiveDef};
 use crate::environment::Environment;

@@ -6,7 +6,7 @@ use motet_syntax::{Code, Diagnostic, Severity, Span};
 
 use super::evaluation::CallFrame;
 use super::symbols::Symbols;
-use super::tested::TestTable;
+use super::test_outcomes::TestTable;
 use super::{AbstractState, Mode, Prover};
 use crate::analysis::Domain;
 use crate::declare::{Library, PrimitiveDef};

@@ -11,7 +11,7 @@ use crate::located::{Located, end_of_value};
 use crate::source::{FileId, Source, Span, Syntax};
 use crate::text::lexer::{Token, TokenKind, Tokens, tokens};
 use crate::words::{DECLARATIONS, STEP_WORDS};
-use crate::{json, shapes, text};
+use crate::{foreign_json, json, text};
 
 /// A document after reading, with its diagnostics.
 #[derive(Clone, Debug)]
@@ -109,7 +109,7 @@ fn whole(document: &str, file: FileId) -> Parsed {
         }
         Syntax::Json => {
             let json::PolicyDocument { file, found, written } =
-                json::read_policy(document, file, shapes::plain_form);
+                json::read_policy(document, file, foreign_json::plain_form);
             (file, found, written.map(Arc::new))
         }
     };

@@ -1,7 +1,7 @@
 //! JSON form of a scene. These types give its reader and its schema; [`super::read`] makes the model of them.
 
 use indexmap::IndexMap;
-use motet_syntax::json::{Lenient, Spanned};
+use motet_syntax::json::{Fallible, Spanned};
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize};
 use smol_str::SmolStr;
@@ -30,16 +30,16 @@ pub(super) struct Document {
     pub(super) frame: Option<Spanned<SmolStr>>,
     /// Distances from obstacles that motions keep in this room, in place of those of the robot's card.
     #[serde(default = "absent::<Clearance>", skip_serializing_if = "is_absent")]
-    pub(super) clearance: Lenient<Clearance>,
+    pub(super) clearance: Fallible<Clearance>,
     /// The robot at the start.
     #[serde(default = "absent::<Robot>", skip_serializing_if = "is_absent")]
-    pub(super) robot: Lenient<Robot>,
+    pub(super) robot: Fallible<Robot>,
     /// Things, places and people.
     #[serde(default)]
-    pub(super) entities: Vec<Lenient<Spanned<Entity>>>,
+    pub(super) entities: Vec<Fallible<Spanned<Entity>>>,
     /// Images of cameras in the room.
     #[serde(default)]
-    pub(super) views: Vec<Lenient<View>>,
+    pub(super) views: Vec<Fallible<View>>,
 }
 
 /// Distances from obstacles in m, from 0 to 0.5.
@@ -60,7 +60,7 @@ pub(super) struct Clearance {
 pub(super) struct Robot {
     /// Position in m and heading in rad.
     #[serde(default = "absent::<Point>", skip_serializing_if = "is_absent")]
-    pub(super) base: Lenient<Point>,
+    pub(super) base: Fallible<Point>,
     /// Joint values by name, in m or rad.
     #[serde(default)]
     pub(super) joints: IndexMap<SmolStr, Spanned<f64>>,
@@ -69,7 +69,7 @@ pub(super) struct Robot {
     pub(super) holding: Option<Option<Spanned<SmolStr>>>,
     /// The pose of the held entity in the frame of the hand's tip; without it a grasp that holds it upright.
     #[serde(default = "absent::<Pose>", skip_serializing_if = "is_absent")]
-    pub(super) grip: Lenient<Pose>,
+    pub(super) grip: Fallible<Pose>,
     /// Entity at which the robot is within its working area.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) at: Option<Spanned<SmolStr>>,
@@ -80,11 +80,11 @@ fn present<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Option<S
     Deserialize::deserialize(deserializer).map(Some)
 }
 
-fn absent<T>() -> Lenient<T> {
-    Lenient(None)
+fn absent<T>() -> Fallible<T> {
+    Fallible(None)
 }
 
-fn is_absent<T>(value: &Lenient<T>) -> bool {
+fn is_absent<T>(value: &Fallible<T>) -> bool {
     value.0.is_none()
 }
 
@@ -109,10 +109,10 @@ pub(super) struct Entity {
     /// The pose of its shape's centre, of the feet for a `Person`, a `Place` and a `Zone`; of what opens, the
     /// pose when closed.
     #[serde(default = "absent::<Pose>", skip_serializing_if = "is_absent")]
-    pub(super) pose: Lenient<Pose>,
+    pub(super) pose: Fallible<Pose>,
     /// Shape about its pose; of a `Zone`, its extent on the floor: a box or a cylinder of any height.
     #[serde(default = "absent::<Shape>", skip_serializing_if = "is_absent")]
-    pub(super) shape: Lenient<Shape>,
+    pub(super) shape: Fallible<Shape>,
     /// Its mass in kg.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) mass: Option<Spanned<f64>>,
@@ -139,7 +139,7 @@ pub(super) struct Entity {
     pub(super) locked: Option<bool>,
     /// Motion of its drawer or door; a container without one is always open.
     #[serde(default = "absent::<Travel>", skip_serializing_if = "is_absent")]
-    pub(super) travel: Lenient<Travel>,
+    pub(super) travel: Fallible<Travel>,
     /// Other numbers that its kind declares, in SI units.
     #[serde(default)]
     pub(super) fields: IndexMap<SmolStr, Spanned<f64>>,
@@ -246,10 +246,10 @@ pub(super) struct View {
     pub(super) depth: Option<String>,
     /// The camera's pose in the frame `map`.
     #[serde(default = "absent::<Pose>", skip_serializing_if = "is_absent")]
-    pub(super) pose: Lenient<Pose>,
+    pub(super) pose: Fallible<Pose>,
     /// Focal lengths and centre, in pixels.
     #[serde(default = "absent::<Intrinsics>", skip_serializing_if = "is_absent")]
-    pub(super) intrinsics: Lenient<Intrinsics>,
+    pub(super) intrinsics: Fallible<Intrinsics>,
 }
 
 /// Focal lengths and centre of a pinhole camera, in pixels.

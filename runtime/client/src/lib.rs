@@ -17,7 +17,7 @@ use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::time::Duration;
 
 use motet_decode::Grammar;
-use motet_planner::model::{Message, Model, ModelError, News, Reply};
+use motet_planner::model::{Message, Model, ModelError, Reply, ReplyEvent};
 use motet_planner::vision::Pointer;
 use motet_runtime::CameraImage as Picture;
 use reqwest::header::{HeaderMap, HeaderName, HeaderValue};
@@ -131,17 +131,17 @@ impl Pointer for Client {
 
 /// A reply on its way. Dropping it hangs up.
 struct Incoming {
-    news: Receiver<News>,
+    news: Receiver<ReplyEvent>,
     task: Option<AbortHandle>,
 }
 
 impl Reply for Incoming {
-    fn next(&mut self, wait: Duration) -> News {
+    fn next(&mut self, wait: Duration) -> ReplyEvent {
         match self.news.recv_timeout(wait) {
             Ok(news) => news,
-            Err(RecvTimeoutError::Timeout) => News::Nothing,
+            Err(RecvTimeoutError::Timeout) => ReplyEvent::Nothing,
             // The task has told how it ended before it went, unless it was ended from outside.
-            Err(RecvTimeoutError::Disconnected) => News::Failed(ModelError::Cancelled),
+            Err(RecvTimeoutError::Disconnected) => ReplyEvent::Failed(ModelError::Cancelled),
         }
     }
 }

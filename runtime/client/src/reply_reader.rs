@@ -4,7 +4,7 @@
 use std::sync::mpsc::Sender;
 
 use motet_decode::export::Dialect;
-use motet_planner::model::{Finish, ModelError, News, TokenUsage};
+use motet_planner::model::{Finish, ModelError, ReplyEvent, TokenUsage};
 use serde_json::Value;
 
 use crate::protocol::{self, Meaning, WireProtocol, kind};
@@ -17,7 +17,7 @@ const SHOWN_CHARS: usize = 320;
 pub(crate) struct ReplyReader<'a> {
     protocol: &'static WireProtocol,
     key: Option<&'a ApiKey>,
-    news: &'a Sender<News>,
+    news: &'a Sender<ReplyEvent>,
     /// End of the text so far that may be the beginning of a key.
     held: String,
     /// Words with which the model declines, so far.
@@ -27,7 +27,7 @@ pub(crate) struct ReplyReader<'a> {
 }
 
 impl<'a> ReplyReader<'a> {
-    pub(crate) fn new(settings: &'a ClientSettings, news: &'a Sender<News>) -> Self {
+    pub(crate) fn new(settings: &'a ClientSettings, news: &'a Sender<ReplyEvent>) -> Self {
         Self {
             protocol: protocol::protocol(settings.dialect),
             key: settings.key.as_ref(),
@@ -75,7 +75,7 @@ impl<'a> ReplyReader<'a> {
         let rest = std::mem::take(&mut self.held);
         self.pass(rest);
         if self.usage != TokenUsage::default() {
-            let _ = self.news.send(News::Used(self.usage));
+            let _ = self.news.send(ReplyEvent::Used(self.usage));
         }
     }
 
@@ -94,7 +94,7 @@ impl<'a> ReplyReader<'a> {
     fn pass(&self, text: String) {
         if !text.is_empty() {
             // Who no longer listens has hung up, and this task is being ended.
-            let _ = self.news.send(News::Piece(text));
+            let _ = self.news.send(ReplyEvent::Piece(text));
         }
     }
 

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use eventsource_stream::{EventStreamError, Eventsource as _};
 use futures_util::{Stream, StreamExt as _};
-use motet_planner::model::{Finish, ModelError, News};
+use motet_planner::model::{Finish, ModelError, ReplyEvent};
 use reqwest::Response;
 use reqwest::header::CONTENT_TYPE;
 use serde_json::Value;
@@ -56,7 +56,7 @@ pub(crate) async fn text(response: Response, most: usize) -> Result<String, Mode
 pub(crate) async fn pass_on(
     response: Response,
     settings: &ClientSettings,
-    news: &Sender<News>,
+    news: &Sender<ReplyEvent>,
 ) -> Result<Finish, ModelError> {
     let kind = response.headers().get(CONTENT_TYPE).and_then(|kind| kind.to_str().ok()).unwrap_or_default();
     let kind = kind.to_ascii_lowercase();

@@ -4,7 +4,7 @@ use std::sync::mpsc::Sender;
 use std::time::Duration;
 
 use motet_decode::export::Delivery;
-use motet_planner::model::{ModelError, News};
+use motet_planner::model::{ModelError, ReplyEvent};
 use reqwest::header::{CONTENT_TYPE, HeaderMap, RETRY_AFTER};
 use reqwest::{Response, StatusCode};
 use serde_json::Value;
@@ -18,7 +18,7 @@ pub(crate) async fn talk(
     http: &reqwest::Client,
     settings: &ClientSettings,
     body: String,
-    news: &Sender<News>,
+    news: &Sender<ReplyEvent>,
 ) {
     let whole = async {
         let sends = |news_of| drop(news.send(news_of));
@@ -26,9 +26,9 @@ pub(crate) async fn talk(
         stream::pass_on(response, settings, news).await
     };
     let end = match tokio::time::timeout(settings.timeout, whole).await {
-        Ok(Ok(finish)) => News::End(finish),
-        Ok(Err(error)) => News::Failed(error),
-        Err(_) => News::Failed(timed_out(settings.timeout)),
+        Ok(Ok(finish)) => ReplyEvent::End(finish),
+        Ok(Err(error)) => ReplyEvent::Failed(error),
+        Err(_) => ReplyEvent::Failed(timed_out(settings.timeout)),
     };
     let _ = news.send(end);
 }
@@ -38,7 +38,7 @@ pub(crate) async fn send(
     http: &reqwest::Client,
     settings: &ClientSettings,
     (delivery, body): (Delivery, String),
-    tell: impl Fn(News),
+    tell: impl Fn(ReplyEvent),
 ) -> Result<Response, ModelError> {
     let mut back_off = settings.back_off;
     let mut tries = 0;
@@ -70,7 +70,7 @@ pub(crate) async fn send(
         }
         tries += 1;
         let after = asked.unwrap_or(back_off).min(settings.longest_back_off);
-        tell(News::Retrying { why: error.to_string(), after });
+        tell(ReplyEvent::Retrying { why: error.to_string(), after });
         tokio::time::sleep(after).await;
         back_off = back_off.saturating_mul(2);
     }

@@ -12,13 +12,13 @@ use rustc_hash::FxHashSet;
 use serde::{Deserialize, Serialize};
 use smol_str::{SmolStr, ToSmolStr, format_smolstr};
 
-use crate::deck::{Deck, DeckWish};
 use crate::format::{self, About, Row, RowFormat, UPDATE};
 use crate::lesson::{self, Lesson};
 use crate::picture::{Picture, Pictures};
 use crate::play::{IN_VIEW, play};
 use crate::random::{self, Draw as _};
-use crate::stage::{Body, Posture, Stage};
+use crate::sampling::{CaseKind, StratifiedSampler};
+use crate::testbed::{Body, Posture, Testbed};
 use crate::wordings::Wordings;
 use crate::{case, kept, lint, scenery};
 
@@ -142,10 +142,10 @@ pub fn part(order: &Order, number: usize) -> SceneRows {
     let mut draw = random::part(order.seed, seed);
     let told = scenery::vary(base, &order.things, &mut draw);
     let name = format_smolstr!("{name}-{}", number + 1);
-    let mut deck = Deck::new(order.seed, order.taught());
+    let mut sampler = StratifiedSampler::new(order.seed, order.taught());
     for (index, body) in order.bodies.iter().enumerate() {
-        let stage = match Stage::new(body, (&told, &Posture::new()), order.effort) {
-            Ok(stage) => stage,
+        let testbed = match Testbed::new(body, (&told, &Posture::new()), order.effort) {
+            Ok(testbed) => testbed,
             Err(_) => {
                 part.leave_out("the robot cannot be in the scene");
                 continue;
@@ -155,9 +155,9 @@ pub fn part(order: &Order, number: usize) -> SceneRows {
             let light = draw.within(LIGHT[0], LIGHT[1]);
             let place = (number * order.bodies.len() + index) * order.cases + case;
             for kind in 0..KINDS {
-                // What a scene cannot give gives way to what comes next in the deck.
-                let wish = deck.at(place + kind);
-                if part.conversation(order, (body, &stage, &name), (wish, light), &mut draw) {
+                // What a scene cannot give gives way to what comes next.
+                let wish = sampler.at(place + kind);
+                if part.conversation(order, (body, &testbed, &name), (wish, light), &mut draw) {
                     break;
                 }
             }
@@ -180,16 +180,16 @@ pub struct RecordedPlan {
 pub fn recorded(order: &Order, plans: &[RecordedPlan]) -> SceneRows {
     let mut part = SceneRows::default();
     let (Some((name, scene)), Some(body)) = (order.bases.first(), order.bodies.first()) else { return part };
-    let Ok(stage) = Stage::new(body, (scene, &Posture::new()), order.effort) else {
+    let Ok(testbed) = Testbed::new(body, (scene, &Posture::new()), order.effort) else {
         part.leave_out("the robot cannot be in the scene");
         return part;
     };
     for plan in plans {
         let case = case::recorded(scene, &plan.request, &plan.policy);
-        match play(&case, &stage, (order.shown(), 1.0)) {
+        match play(&case, &testbed, (order.shown(), 1.0)) {
             Ok(turns) => {
                 for (turn, played) in turns.into_iter().enumerate() {
-                    part.turn(order, body, &stage, name, &case, turn, played);
+                    part.turn(order, body, &testbed, name, &case, turn, played);
                 }
             }
             Err(why) => part.leave_out(why),
@@ -207,8 +207,8 @@ impl SceneRows {
     fn conversation(
         &mut self,
         order: &Order,
-        (body, stage, name): (&Body, &Stage, &SmolStr),
-        (wish, light): (DeckWish, f64),
+        (body, testbed, name): (&Body, &Testbed, &SmolStr),
+        (wish, light): (CaseKind, f64),
         draw: &mut SplitMix64,
     ) -> bool {
         let mut plays = 0;
@@ -218,13 +218,13 @@ impl SceneRows {
             }
             let drawn = (0..DRAWS).find_map(|_| {
                 let mut request = |failures, is_changed| {
-                    case::draw(&body.robot, &stage.scene, &order.wordings, (failures, is_changed), draw)
+                    case::draw(&body.robot, &testbed.scene, &order.wordings, (failures, is_changed), draw)
                 };
                 match wish {
-                    DeckWish::Changed => request(&[], true),
-                    DeckWish::Request(failures) => request(failures, false),
-                    DeckWish::Lesson(construct) => {
-                        lesson::draw(&body.robot, &stage.scene, order.taught(), construct, draw)
+                    CaseKind::Changed => request(&[], true),
+                    CaseKind::Request(failures) => request(failures, false),
+                    CaseKind::Lesson(construct) => {
+                        lesson::draw(&body.robot, &testbed.scene, order.taught(), construct, draw)
                     }
                 }
             });
@@ -232,11 +232,11 @@ impl SceneRows {
                 self.leave_out("the scene has nothing for it");
                 return false;
             };
-            match play(&case, stage, (order.shown(), light)) {
+            match play(&case, testbed, (order.shown(), light)) {
                 Ok(turns) => {
                     let before = self.rows.len();
                     for (turn, played) in turns.into_iter().enumerate() {
-                        self.turn(order, body, stage, name, &case, turn, played);
+                        self.turn(order, body, testbed, name, &case, turn, played);
                     }
                     if self.rows.len() > before {
                         return true;
@@ -258,7 +258,7 @@ impl SceneRows {
         &mut self,
         order: &Order,
         body: &Body,
-        stage: &Stage,
+        testbed: &Testbed,
         scene: &SmolStr,
         case: &case::Case,
         turn: usize,
@@ -272,7 +272,7 @@ impl SceneRows {
             self.leave_out("the plan has no place on the model surface");
             return;
         };
-        let is_start = played.scene == stage.scene && played.posture == stage.posture;
+        let is_start = played.scene == testbed.scene && played.posture == testbed.posture;
         let is_update = turn > 0 && case.update.is_some();
         let named = |picture: Picture| (picture.path(scene, &body.robot.name), picture);
         let pictures: Vec<(SmolStr, Picture)> = played.pictures.into_iter().map(named).collect();
@@ -301,11 +301,11 @@ impl SceneRows {
         let own = if is_start {
             None
         } else {
-            stage.elsewhere(body, (&played.scene, &played.posture), order.effort).ok()
+            testbed.elsewhere(body, (&played.scene, &played.posture), order.effort).ok()
         };
         let fault = match &own {
             Some(own) => lint::fault(own, &read.target),
-            None if is_start => lint::fault(stage, &read.target),
+            None if is_start => lint::fault(testbed, &read.target),
             None => Some(String::new()),
         };
         if fault.is_some() {

@@ -12,8 +12,8 @@ use smol_str::SmolStr;
 use thiserror::Error;
 
 use crate::case::{self, Case};
+use crate::coverage::{self, Construct};
 use crate::random::Draw;
-use crate::share::{self, Construct};
 
 /// The lessons that come with Motet.
 pub const OWN: &str = include_str!("../data/lessons.txt");
@@ -107,7 +107,7 @@ pub fn read(text: &str) -> Result<Vec<Lesson>, NoLesson> {
     Ok(lessons
         .into_iter()
         .map(|(_, lesson)| {
-            let used = share::constructs(&format!("policy p {{\n{}}}\n", without_slots(&lesson.steps)));
+            let used = coverage::constructs(&format!("policy p {{\n{}}}\n", without_slots(&lesson.steps)));
             let constructs =
                 Construct::ALL.into_iter().filter(|construct| used.contains(construct)).collect();
             Lesson { constructs, ..lesson }

@@ -1,7 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 pub mod case;
-mod deck;
+pub mod coverage;
 pub mod format;
 pub mod generate;
 mod kept;
@@ -10,10 +10,10 @@ pub mod lint;
 pub mod picture;
 mod play;
 mod random;
+mod sampling;
 pub mod scenery;
-pub mod share;
-mod stage;
+mod testbed;
 pub mod wordings;
 
 pub use format::{About, Row};
-pub use stage::{Body, Posture, Stage};
+pub use testbed::{Body, Posture, Testbed};

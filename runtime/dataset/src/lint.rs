@@ -10,7 +10,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use smol_str::SmolStr;
 
 use crate::format::{self, Read, Target};
-use crate::stage::{Body, Posture, Stage};
+use crate::testbed::{Body, Posture, Testbed};
 
 /// RowFault of a row.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -85,7 +85,7 @@ pub struct Worlds {
 }
 
 /// Looks after the pictures that rows refer to.
-pub trait Shelf {
+pub trait ImageCheck {
     /// Checks the image at a path that a row of `file` names, and returns its fault.
     fn fault(&mut self, file: &str, path: &str) -> Option<String>;
 }
@@ -93,9 +93,9 @@ pub trait Shelf {
 /// Looks at the rows of files, one after the other.
 pub struct Linter<'w> {
     worlds: &'w Worlds,
-    shelf: Option<&'w mut dyn Shelf>,
-    /// Robot and scene of the row before, and the stage of them: rows of one scene mostly follow each other.
-    stage: Option<((SmolStr, SmolStr), Result<Stage, String>)>,
+    images: Option<&'w mut dyn ImageCheck>,
+    /// Robot and scene of the row before, and their testbed: rows of one scene mostly follow each other.
+    testbed: Option<((SmolStr, SmolStr), Result<Testbed, String>)>,
     /// Inputs, with the answer and where it stands.
     inputs: FxHashMap<String, (String, Place)>,
     /// In which file a scene, or a variation of it, was first.
@@ -109,8 +109,8 @@ impl<'w> Linter<'w> {
     pub fn new(worlds: &'w Worlds) -> Self {
         Self {
             worlds,
-            shelf: None,
-            stage: None,
+            images: None,
+            testbed: None,
             inputs: FxHashMap::default(),
             families: FxHashMap::default(),
             leaked: FxHashSet::default(),
@@ -119,8 +119,8 @@ impl<'w> Linter<'w> {
 
     /// Has the pictures of rows looked at, too.
     #[must_use]
-    pub fn with_shelf(self, shelf: &'w mut dyn Shelf) -> Self {
-        Self { shelf: Some(shelf), ..self }
+    pub fn with_images(self, images: &'w mut dyn ImageCheck) -> Self {
+        Self { images: Some(images), ..self }
     }
 
     /// Checks line `number` of a file, counted from 1. An empty line has no fault.
@@ -165,8 +165,8 @@ impl<'w> Linter<'w> {
             let message = format!("it has {} images and {places} places for them", row.images.len());
             find(RowFault::Image, message, None);
         }
-        if let Some(shelf) = &mut self.shelf {
-            for why in row.images.iter().filter_map(|image| shelf.fault(file, image)) {
+        if let Some(images) = &mut self.images {
+            for why in row.images.iter().filter_map(|image| images.fault(file, image)) {
                 find(RowFault::Image, why, None);
             }
         }
@@ -203,33 +203,33 @@ impl<'w> Linter<'w> {
         let scene = row.scene.clone().or_else(|| worlds.scene.clone());
         let scene = scene.ok_or_else(|| missing("in which scene it is", "--scene NAME"))?;
         let key = (robot, scene);
-        if self.stage.as_ref().is_none_or(|(known, _)| *known != key) {
+        if self.testbed.as_ref().is_none_or(|(known, _)| *known != key) {
             let (robot, scene) = &key;
             let body = worlds.bodies.get(robot).ok_or_else(|| format!("there is no robot `{robot}`"))?;
             let known = worlds.scenes.get(scene).ok_or_else(|| format!("there is no scene `{scene}`"))?;
             let at_start = Posture::new();
             let posture = worlds.postures.get(scene).unwrap_or(&at_start);
-            let stage = Stage::new(body, (known, posture), worlds.effort);
-            self.stage = Some((key, stage));
+            let testbed = Testbed::new(body, (known, posture), worlds.effort);
+            self.testbed = Some((key, testbed));
         }
-        match self.stage.as_ref().map(|(_, stage)| stage) {
-            Some(Ok(stage)) => Ok(fault(stage, &row.target)),
+        match self.testbed.as_ref().map(|(_, testbed)| testbed) {
+            Some(Ok(testbed)) => Ok(fault(testbed, &row.target)),
             Some(Err(why)) => Err(format!("its robot cannot be in its scene: {why}")),
             None => Ok(None),
         }
     }
 }
 
-/// Checks that a reply can be carried out on a stage, or asks something, and returns its fault.
+/// Checks that a reply can be carried out on a testbed, or asks something, and returns its fault.
 #[must_use]
-pub fn fault(stage: &Stage, target: &Target) -> Option<String> {
+pub fn fault(testbed: &Testbed, target: &Target) -> Option<String> {
     match target {
-        Target::Policy(policy) => stage.fault(policy),
+        Target::Policy(policy) => testbed.fault(policy),
         Target::Question(_) => None,
         Target::Actions(list) => {
-            let situation = RequestContext::new(&stage.scene);
-            match actions::read(list, "plan", &stage.session, Some(&stage.robot), &situation) {
-                Ok(loose) => stage.fault(&loose.policy),
+            let situation = RequestContext::new(&testbed.scene);
+            match actions::read(list, "plan", &testbed.session, Some(&testbed.robot), &situation) {
+                Ok(loose) => testbed.fault(&loose.policy),
                 Err(why) => Some(why.to_string()),
             }
         }

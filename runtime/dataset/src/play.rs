@@ -24,7 +24,7 @@ use smol_str::SmolStr;
 
 use crate::case::Case;
 use crate::picture::{Picture, Pictures};
-use crate::stage::{Posture, Stage};
+use crate::testbed::{Posture, Testbed};
 
 /// Answers from a list.
 struct Scripted(Vec<(Kind, String)>);
@@ -52,17 +52,17 @@ impl DialogueObserver for Change {
 /// Reason why a case is not played: nothing would go wrong.
 pub(crate) const IN_VIEW: &str = "what should be missing is in view";
 
-/// Plays a case where the robot was told the scene of a stage. Gives its turns, or why it did not go as it
+/// Plays a case where the robot was told the scene of a testbed. Gives its turns, or why it did not go as it
 /// was drawn: it came to another end, its goal does not hold, or something that should go wrong was never
 /// asked about.
 pub(crate) fn play(
     case: &Case,
-    stage: &Stage,
+    testbed: &Testbed,
     (pictures, light): (Pictures, f64),
 ) -> Result<Vec<Turn>, &'static str> {
-    let eye = stage.geometry.as_ref().and_then(|geometry| geometry.eye());
+    let eye = testbed.geometry.as_ref().and_then(|geometry| geometry.eye());
     let options = SimOptions { faults: case.faults.clone(), eye, ..SimOptions::default() };
-    let mut driver = Rc::new(RefCell::new(Sim::new(&stage.robot, &case.real, options)));
+    let mut driver = Rc::new(RefCell::new(Sim::new(&testbed.robot, &case.real, options)));
     // What is not where the robot was told that it is would be seen at once.
     let is_in_view = |id: &SmolStr| {
         let seen = driver.borrow_mut().detections(Time::ZERO);
@@ -71,19 +71,19 @@ pub(crate) fn play(
     if case.hidden.as_ref().is_some_and(is_in_view) {
         return Err(IN_VIEW);
     }
-    let (told, sim) = (stage.scene.clone(), driver.clone());
+    let (told, sim) = (testbed.scene.clone(), driver.clone());
     let lesson = case.policy.clone();
-    let mut mind = Mind { stage, told, sim, pictures, light, lesson, is_asking: false, turns: Vec::new() };
+    let mut mind = Mind { testbed, told, sim, pictures, light, lesson, is_asking: false, turns: Vec::new() };
     let mut change = Change(case.update.clone());
     let setting = DialogueSetup {
-        robot: stage.robot.clone(),
-        scene: stage.scene.clone(),
+        robot: testbed.robot.clone(),
+        scene: testbed.scene.clone(),
         domains: Vec::new(),
-        geometry: stage.geometry.clone(),
+        geometry: testbed.geometry.clone(),
         options: CheckOptions::default(),
     };
     let mut person = Scripted(case.answers.clone());
-    let mut talk = Conversation::new(&setting).with_session(stage.base.clone());
+    let mut talk = Conversation::new(&setting).with_session(testbed.base.clone());
     let (outcome, _) =
         talk.carry_out(&case.request, &mut mind, &mut driver, &mut person, &mut change, Time::ZERO);
     if change.0.is_some() {
@@ -136,7 +136,7 @@ pub(crate) type Shared = Rc<RefCell<Sim>>;
 
 /// The planner that needs no model, with a memory of its turns.
 pub(crate) struct Mind<'s> {
-    stage: &'s Stage,
+    testbed: &'s Testbed,
     /// The scene as the robot was told that it is.
     pub(crate) told: Scene,
     pub(crate) sim: Shared,
@@ -160,7 +160,7 @@ impl Planner for Mind<'_> {
             }
             None => Builtin.plan(ask),
         };
-        let kept = self.stage.kept();
+        let kept = self.testbed.kept();
         let chat = model::chat_with(ask, &kept.lasting, prompt::TOKENS);
         let mut chat = chat.into_iter().map(|message| message.text);
         let (system, user) = (chat.next().unwrap_or_default(), chat.next().unwrap_or_default());

@@ -9,11 +9,11 @@
 
 use std::collections::BTreeSet;
 
+use motet_dataset::coverage::{Construct, Counts, Subject};
 use motet_dataset::format::{self, RowFormat};
 use motet_dataset::generate::{self, Dataset, HeldOut, Order};
-use motet_dataset::lint::{Finding, Linter, RowFault, Shelf, Worlds, family};
+use motet_dataset::lint::{Finding, ImageCheck, Linter, RowFault, Worlds, family};
 use motet_dataset::picture::{self, Pictures};
-use motet_dataset::share::{Construct, Counts, Subject};
 use motet_dataset::{Body, Row, lesson, scenery, wordings};
 use motet_geometry::planning::SearchBudget;
 use motet_robots::builtin::{self, RobotWithBody};
@@ -330,7 +330,7 @@ fn dataset_room_in_two_files_is_found_once() {
 /// Pictures in memory.
 struct Kept<'d>(&'d Dataset);
 
-impl Shelf for Kept<'_> {
+impl ImageCheck for Kept<'_> {
     fn fault(&mut self, _file: &str, path: &str) -> Option<String> {
         self.0.pictures.get(path).map_or_else(|| Some("missing".to_owned()), |bytes| picture::fault(bytes))
     }
@@ -351,8 +351,8 @@ fn dataset_pictures_go_with_rows_in_every_form_that_has_them() {
         let line: Value = serde_json::from_str(&format::write(rows[0], form)).unwrap();
         assert_eq!(line[column], json!(rows[0].images));
         let worlds = worlds(&dataset, None);
-        let mut shelf = Kept(&dataset);
-        let mut linter = Linter::new(&worlds).with_shelf(&mut shelf);
+        let mut kept = Kept(&dataset);
+        let mut linter = Linter::new(&worlds).with_images(&mut kept);
         for (number, line) in lines(&dataset.train, form).iter().enumerate() {
             assert_eq!(linter.line("train", number + 1, line), [], "{form:?}");
         }
@@ -392,8 +392,8 @@ fn dataset_pictures_that_are_wrong_are_found() {
         (json!([]), "<image>e", "0 images and 1 places"),
         (json!(["images/good.gif"]), "<image>f", ""),
     ] {
-        let mut shelf = Kept(&dataset);
-        let mut linter = Linter::new(&worlds).with_shelf(&mut shelf);
+        let mut kept = Kept(&dataset);
+        let mut linter = Linter::new(&worlds).with_images(&mut kept);
         let found = linter.line("rows", 1, &row(content.into(), images));
         let expected = usize::from(!words.is_empty());
         assert_eq!(found.len(), expected, "{content}: {found:?}");

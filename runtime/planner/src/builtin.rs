@@ -37,10 +37,10 @@ pub fn plan(
         Err(NoPlan::Budget { .. }) => supposed.plan(&goals, PLAN_BUDGET * LAST_RESORT)?,
         found => found?,
     };
-    if let Some(deed) =
-        aims.iter().filter_map(|aim| aim.deed.as_ref()).find(|deed| !named_step::has(deed, session))
+    if let Some(named) =
+        aims.iter().filter_map(|aim| aim.named_step.as_ref()).find(|named| !named_step::has(named, session))
     {
-        return Err(RequestError::Unfit { why: format!("I cannot {}", named_step::words(deed)) }.into());
+        return Err(RequestError::Unfit { why: format!("I cannot {}", named_step::words(named)) }.into());
     }
     let text = policy(name, robot, aims, &plan, session.scene());
     let parsed = motet_syntax::read(&Source::new("plan.motet", text), FileId(0));
@@ -51,7 +51,7 @@ pub fn plan(
         return Ok(Planned { text, parsed, compiled, looked_at: plan.expanded_states });
     }
     // A step that is asked for by its name has needs that no goal says.
-    if aims.iter().any(|aim| aim.deed.is_some() || aim.awaits.is_some())
+    if aims.iter().any(|aim| aim.named_step.is_some() || aim.awaits.is_some())
         && let ReplyVerdict::Good { planned, .. } = judge(session, &text)
     {
         return Ok(*planned);
@@ -112,9 +112,10 @@ pub(super) fn policy(
         let aim = aims.get(index);
         let steps: Vec<String> =
             plan.steps.iter().filter(|step| step.goal == index).map(|step| watched(step, robot)).collect();
-        let deed = aim.and_then(|aim| aim.deed.as_ref()).map(|deed| named_step::steps(deed, robot, scene));
+        let named =
+            aim.and_then(|aim| aim.named_step.as_ref()).map(|named| named_step::steps(named, robot, scene));
         let awaits = aim.and_then(|aim| aim.awaits.as_ref());
-        if steps.is_empty() && deed.is_none() && awaits.is_none() {
+        if steps.is_empty() && named.is_none() && awaits.is_none() {
             continue;
         }
         if is_grouped {
@@ -129,7 +130,7 @@ pub(super) fn policy(
             let condition = print::expression(condition);
             text.push_str(&format!("wait until {condition} within {PATIENCE_MIN} min\n"));
         }
-        for step in steps.iter().chain(&deed) {
+        for step in steps.iter().chain(&named) {
             text.push_str(step);
             text.push('\n');
         }

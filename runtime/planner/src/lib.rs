@@ -14,4 +14,4 @@ pub mod runtime_check;
 pub mod vision;
 
 pub use background_work::{CHECK_WITHIN, READ_WITHIN};
-pub use planner::{Builtin, BuiltinBeside, PlanRequest, Planner, RemainingSteps, Wait};
+pub use planner::{BackgroundBuiltin, Builtin, PlanRequest, Planner, RemainingSteps, Wait};

@@ -10,9 +10,9 @@ use smol_str::SmolStr;
 
 use crate::planned::quoted;
 
-/// Primitive of a deed.
-const fn primitive(deed: &NamedStep) -> &'static str {
-    match deed {
+/// Primitive of a named step.
+const fn primitive(step: &NamedStep) -> &'static str {
+    match step {
         NamedStep::Turn { .. } => primitives::TURN,
         NamedStep::WakeUp => primitives::WAKE_UP,
         NamedStep::Home => primitives::HOME,
@@ -21,13 +21,13 @@ const fn primitive(deed: &NamedStep) -> &'static str {
 }
 
 /// True if the robot can do it.
-pub(crate) fn has(deed: &NamedStep, session: &Session) -> bool {
-    session.signatures().callable(primitive(deed)).is_some()
+pub(crate) fn has(step: &NamedStep, session: &Session) -> bool {
+    session.signatures().callable(primitive(step)).is_some()
 }
 
-/// A deed behind `I cannot`.
-pub(crate) const fn words(deed: &NamedStep) -> &'static str {
-    match deed {
+/// A named step behind `I cannot`.
+pub(crate) const fn words(step: &NamedStep) -> &'static str {
+    match step {
         NamedStep::Turn { .. } => "turn on the spot",
         NamedStep::WakeUp => "wake up, since I am always ready",
         NamedStep::Home => "fold my arm",
@@ -35,10 +35,10 @@ pub(crate) const fn words(deed: &NamedStep) -> &'static str {
     }
 }
 
-/// Steps of a deed.
-pub(crate) fn steps(deed: &NamedStep, robot: Option<&Robot>, scene: Option<&Scene>) -> String {
-    let name = primitive(deed);
-    match deed {
+/// Calls of a named step.
+pub(crate) fn steps(step: &NamedStep, robot: Option<&Robot>, scene: Option<&Scene>) -> String {
+    let name = primitive(step);
+    match step {
         NamedStep::Turn { degrees } => format!("{name}({degrees} deg)"),
         NamedStep::WakeUp | NamedStep::Home => format!("{name}()"),
         NamedStep::Inspect { thing, tells } => {

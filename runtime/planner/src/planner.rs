@@ -146,12 +146,12 @@ impl OwnedRequest {
 /// The built-in planner, which plans for an instruction during a run on a thread of its own: the run goes on
 /// meanwhile. Other requests are planned in place.
 #[derive(Default)]
-pub struct BuiltinBeside {
+pub struct BackgroundBuiltin {
     /// Policy that is being planned, or none where there is none.
     coming: Option<BackgroundWork<Option<String>>>,
 }
 
-impl Planner for BuiltinBeside {
+impl Planner for BackgroundBuiltin {
     fn plan(&mut self, ask: &PlanRequest<'_>) -> Result<PlannedRequest, PlanError> {
         self.coming = None;
         Builtin.plan(ask)

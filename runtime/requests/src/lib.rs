@@ -110,8 +110,9 @@ pub fn told(answer: &str, asked: PendingQuestion, situation: &RequestContext<'_>
     if answer.len() > MAX_REQUEST {
         return Vec::new();
     }
-    let read =
-        || meaning::told(&engine::frame::without_courtesy(&engine::token::tokens(answer)), asked, situation);
+    let read = || {
+        meaning::told(&engine::rewrite::without_courtesy(&engine::token::tokens(answer)), asked, situation)
+    };
     bounded(read).unwrap_or_default()
 }
 
@@ -135,7 +136,7 @@ pub fn turn(answer: &str) -> Option<i32> {
 }
 
 fn turned(answer: &str) -> Option<i32> {
-    let mut tokens = engine::frame::without_courtesy(&engine::token::tokens(answer));
+    let mut tokens = engine::rewrite::without_courtesy(&engine::token::tokens(answer));
     tokens.retain(|token| !token.word().is_empty());
     let begin = engine::asking::skip_leads(&tokens, 0);
     let valued = |list: &engine::phrases::Phrases| list.valued(&tokens, begin);
@@ -197,7 +198,7 @@ fn understand_tokens(
         return found;
     }
     let plain = |tokens: &[Token]| {
-        let tokens = engine::frame::plain(tokens);
+        let tokens = engine::rewrite::plain(tokens);
         let spoken = parse::parse(&tokens).map_err(|part| RequestError::NotUnderstood { part })?;
         meaning::understood(&spoken, request, situation)
     };

@@ -225,7 +225,7 @@ impl Reader<'_> {
             return;
         }
         let goal = Goal { condition, persistence: lasts };
-        self.said.aims.push(Aim { goal, name, only_if: None, awaits: None, deed: None });
+        self.said.aims.push(Aim { goal, name, only_if: None, awaits: None, named_step: None });
     }
 
     pub(super) fn ask(&self, question: &str, roles: &[Role]) -> RequestError {
@@ -252,7 +252,7 @@ pub struct Aim {
     /// Condition that is waited for before the aim's turn.
     pub awaits: Option<Expr>,
     /// Step that the request names, behind the steps of the goal.
-    pub deed: Option<NamedStep>,
+    pub named_step: Option<NamedStep>,
 }
 
 impl Aim {

@@ -11,8 +11,8 @@ use crate::command::{Command, words};
 use crate::command_goal::{all_of, not};
 use crate::engine::asking::skip_leads;
 use crate::engine::english::{STATES, TURNS_BY};
-use crate::engine::frame::plain;
 use crate::engine::noun::noun;
+use crate::engine::rewrite::plain;
 use crate::engine::rule::Rules;
 use crate::engine::token::Token;
 use crate::engine::vocabulary::Role;
@@ -162,7 +162,7 @@ fn push(pieces: &mut Vec<Piece>, words: &[Token]) {
 impl Reader<'_> {
     fn piece(&mut self, piece: &Piece) -> Result<(), RequestError> {
         match piece {
-            Piece::Turn(degrees) => self.deed("turn_around", NamedStep::Turn { degrees: *degrees }),
+            Piece::Turn(degrees) => self.add_step("turn_around", NamedStep::Turn { degrees: *degrees }),
             Piece::Words(words) => {
                 let spoken =
                     parse::parse(&plain(words)).map_err(|part| RequestError::NotUnderstood { part })?;
@@ -172,8 +172,8 @@ impl Reader<'_> {
                 let (name, about) =
                     said.split_first().map_or(("", said.as_slice()), |(name, about)| (name.word(), about));
                 match name {
-                    "wake_up" => self.deed("stand_up", NamedStep::WakeUp),
-                    "home" => self.deed("fold_arm", NamedStep::Home),
+                    "wake_up" => self.add_step("stand_up", NamedStep::WakeUp),
+                    "home" => self.add_step("fold_arm", NamedStep::Home),
                     "start" => {
                         let goal = fact(fluents::AT, &[entities::ROBOT, entities::START]);
                         self.aim("go_home".to_owned(), goal, Persistence::ToTheEnd);
@@ -182,7 +182,7 @@ impl Reader<'_> {
                         let thing = self.named_thing(about)?;
                         self.near(&thing);
                         let tells = tells == "tell";
-                        self.deed(&format!("inspect_{thing}"), NamedStep::Inspect { thing, tells });
+                        self.add_step(&format!("inspect_{thing}"), NamedStep::Inspect { thing, tells });
                     }
                 }
             }
@@ -199,7 +199,7 @@ impl Reader<'_> {
     }
 
     /// Adds an aim without a goal, which is its step.
-    fn deed(&mut self, name: &str, deed: NamedStep) {
+    fn add_step(&mut self, name: &str, step: NamedStep) {
         let goal = all_of(Vec::new());
         let aims = self.said.aims.len();
         self.aim(name.to_owned(), goal, Persistence::Once);
@@ -210,7 +210,7 @@ impl Reader<'_> {
             self.said.aims.push(Aim { name: name.to_owned(), only_if: None, ..last });
         }
         if let Some(aim) = self.said.aims.last_mut() {
-            aim.deed = Some(deed);
+            aim.named_step = Some(step);
         }
     }
 

@@ -3,8 +3,8 @@
 use crate::command::{Command, command, words};
 use crate::engine::asking::{contrasts, skip_leads, thanks};
 use crate::engine::english::{DENIES_REQUEST, OF_IT, SPOKEN_I_MEAN};
-use crate::engine::frame::{asks_for_it, remark_end};
 use crate::engine::noun::{Noun, noun};
+use crate::engine::rewrite::{asks_for_it, remark_end};
 use crate::engine::rule::Rules;
 use crate::engine::token::{Token, stands};
 use crate::engine::verb::{begins, is_want, verb};

@@ -54,7 +54,7 @@ pub(crate) enum End {
 
 /// News of a goal.
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) enum News {
+pub(crate) enum GoalEvent {
     Accepted(Uuid),
     Feedback(Uuid, Message),
     Ended(Uuid, End),
@@ -264,7 +264,7 @@ impl ActionClient {
     /// # Errors
     ///
     /// Why it is none of its layout.
-    pub(crate) fn hear(&mut self, layouts: &Layouts, received: &Received) -> Result<Vec<News>, String> {
+    pub(crate) fn hear(&mut self, layouts: &Layouts, received: &Received) -> Result<Vec<GoalEvent>, String> {
         let bytes = &received.bytes;
         match received.source - self.first {
             0 => Ok(self.send.hear(layouts, received)?.map_or_else(Vec::new, |(ticket, response)| {
@@ -297,7 +297,11 @@ impl ActionClient {
                 let message = decode(layouts, &format!("{}_FeedbackMessage", self.type_name), bytes)?;
                 let id = uuid(&message, "goal_id").filter(|id| self.goals.iter().any(|goal| goal.id == *id));
                 let feedback = message.get("feedback").cloned();
-                Ok(id.zip(feedback).map(|(id, feedback)| News::Feedback(id, feedback)).into_iter().collect())
+                Ok(id
+                    .zip(feedback)
+                    .map(|(id, feedback)| GoalEvent::Feedback(id, feedback))
+                    .into_iter()
+                    .collect())
             }
             _ => {
                 let message = decode(layouts, "action_msgs/GoalStatusArray", bytes)?;
@@ -307,7 +311,7 @@ impl ActionClient {
     }
 
     /// Takes in the response to a goal.
-    fn answered(&mut self, layouts: &Layouts, ticket: Ticket, is_accepted: bool) -> Vec<News> {
+    fn answered(&mut self, layouts: &Layouts, ticket: Ticket, is_accepted: bool) -> Vec<GoalEvent> {
         let Some(at) = self.goals.iter().position(|goal| goal.ticket == Some(ticket)) else {
             return Vec::new();
         };
@@ -319,18 +323,18 @@ impl ActionClient {
             return Vec::new();
         }
         let goal = self.goals.swap_remove(at);
-        vec![News::Ended(goal.id, End::Rejected)]
+        vec![GoalEvent::Ended(goal.id, End::Rejected)]
     }
 
     /// Notes that the server carries a goal out, and asks for its result.
-    fn accepted(&mut self, layouts: &Layouts, at: usize) -> Option<News> {
+    fn accepted(&mut self, layouts: &Layouts, at: usize) -> Option<GoalEvent> {
         let id = self.goals[at].id;
         if self.goals[at].is_accepted {
             return None;
         }
         self.goals[at].is_accepted = true;
         self.ask(layouts, at);
-        Some(News::Accepted(id))
+        Some(GoalEvent::Accepted(id))
     }
 
     fn ask(&mut self, layouts: &Layouts, at: usize) {
@@ -343,7 +347,7 @@ impl ActionClient {
     }
 
     /// Takes in the result of a goal.
-    fn ended(&mut self, layouts: &Layouts, ticket: Ticket, response: Message) -> Vec<News> {
+    fn ended(&mut self, layouts: &Layouts, ticket: Ticket, response: Message) -> Vec<GoalEvent> {
         let is_asked = |goal: &Goal| goal.asked.is_some_and(|(asked, _)| asked == ticket);
         let Some(at) = self.goals.iter().position(is_asked) else { return Vec::new() };
         let result = response.get("result").cloned().unwrap_or(Message::Bool(false));
@@ -358,11 +362,11 @@ impl ActionClient {
                 return self.lose(layouts, at, &format!("the action server answers with the status {other}"));
             }
         };
-        vec![News::Ended(self.goals.swap_remove(at).id, end)]
+        vec![GoalEvent::Ended(self.goals.swap_remove(at).id, end)]
     }
 
     /// Gives a goal up. A server may still carry it out, so it is canceled by its id.
-    fn lose(&mut self, layouts: &Layouts, at: usize, why: &str) -> Vec<News> {
+    fn lose(&mut self, layouts: &Layouts, at: usize, why: &str) -> Vec<GoalEvent> {
         let goal = self.goals.swap_remove(at);
         goal.ticket.into_iter().for_each(|ticket| self.send.forget(ticket));
         goal.asked.into_iter().for_each(|(ticket, _)| self.result.forget(ticket));
@@ -372,7 +376,7 @@ impl ActionClient {
             self.lost.remove(0);
         }
         self.cancel(layouts, id);
-        vec![News::Ended(goal.id, End::Lost(format!("{why} ({})", self.name)))]
+        vec![GoalEvent::Ended(goal.id, End::Lost(format!("{why} ({})", self.name)))]
     }
 
     /// Gives up a goal of which nobody waits for the end any more.
@@ -383,7 +387,7 @@ impl ActionClient {
     }
 
     /// Takes in the states of all goals of the server.
-    fn states(&mut self, layouts: &Layouts, message: &Message) -> Vec<News> {
+    fn states(&mut self, layouts: &Layouts, message: &Message) -> Vec<GoalEvent> {
         let mut news = Vec::new();
         self.is_busy = false;
         for state in message.list("status_list") {
@@ -413,7 +417,7 @@ impl ActionClient {
 
     /// Lets time pass: repeats what was not answered, and gives up goals that nobody answers for.
     /// `is_there` says if DDS knows the endpoints of the server.
-    pub(crate) fn tick(&mut self, layouts: &Layouts, is_there: bool) -> Vec<News> {
+    pub(crate) fn tick(&mut self, layouts: &Layouts, is_there: bool) -> Vec<GoalEvent> {
         let mut news = Vec::new();
         self.repeat_cancels(layouts);
         self.is_busy &= is_there;

@@ -3,7 +3,7 @@
 mod contract;
 mod live;
 
-use crate::bind::{Binding, CallKind, Deed};
+use crate::bind::{Binding, CallKind, StepAction};
 use crate::plan::Card;
 use crate::robot::Robot;
 use motet_project::{Discard, Project, open_robot};
@@ -161,13 +161,13 @@ fn check_primitives<'a>(binding: &Binding, known: impl Iterator<Item = &'a str>,
     }
 }
 
-fn words(deed: &Deed) -> String {
+fn words(deed: &StepAction) -> String {
     match deed {
-        Deed::Motion(direction) => format!("motion {direction:?}").to_lowercase(),
-        Deed::Posture(name) => format!("posture {name}"),
-        Deed::Go(place) => format!("go to {place}"),
-        Deed::Gripper(opening) => format!("gripper {opening:?}").to_lowercase(),
-        Deed::Call(call) => {
+        StepAction::Motion(direction) => format!("motion {direction:?}").to_lowercase(),
+        StepAction::Posture(name) => format!("posture {name}"),
+        StepAction::Go(place) => format!("go to {place}"),
+        StepAction::Gripper(opening) => format!("gripper {opening:?}").to_lowercase(),
+        StepAction::Call(call) => {
             let kind = match call.kind {
                 CallKind::Action => "action",
                 CallKind::Service => "service",
@@ -175,12 +175,12 @@ fn words(deed: &Deed) -> String {
             };
             format!("{kind} {}", call.name)
         }
-        Deed::Wait(secs) => format!("wait {secs} s"),
-        Deed::Require(text) => format!("require {text}"),
-        Deed::Look => "look".to_owned(),
-        Deed::Detect => "detect".to_owned(),
-        Deed::Search => "search".to_owned(),
-        Deed::Answer { topic, .. } => format!("answer {topic}"),
+        StepAction::Wait(secs) => format!("wait {secs} s"),
+        StepAction::Require(text) => format!("require {text}"),
+        StepAction::Look => "look".to_owned(),
+        StepAction::Detect => "detect".to_owned(),
+        StepAction::Search => "search".to_owned(),
+        StepAction::Answer { topic, .. } => format!("answer {topic}"),
     }
 }
 

@@ -5,7 +5,7 @@ mod stopping;
 use crate::lines::{Line, Output};
 use crate::observe::Found;
 use crate::plan::Card;
-use crate::robot::{Heard, Robot};
+use crate::robot::{Robot, RobotEvent};
 use crate::task::{Finish, Surroundings, Task};
 use crate::world::World;
 use crossbeam_channel::{Receiver, select, tick};
@@ -163,7 +163,7 @@ impl Driver {
         let entities = &self.world.scene.entities;
         let mut heard = self.robot.hear(message, &|id| entities.contains_key(id));
         for news in &mut heard {
-            if let Heard::Detected(things) = news {
+            if let RobotEvent::Detected(things) = news {
                 self.world.recognise(things);
             }
         }
@@ -171,9 +171,9 @@ impl Driver {
     }
 
     /// Passes news on to the goals.
-    fn pass(&mut self, heard: &[Heard]) {
+    fn pass(&mut self, heard: &[RobotEvent]) {
         for news in heard {
-            if let Heard::Detected(things) = news {
+            if let RobotEvent::Detected(things) = news {
                 for thing in things {
                     if let Some(id) = &thing.id {
                         self.world.note(thing);

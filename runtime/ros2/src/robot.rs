@@ -2,8 +2,8 @@
 
 mod hear;
 
-use crate::action::{ActionClient, News, SOURCES};
-use crate::bind::{Binding, Call, CallKind, Deed, Observation};
+use crate::action::{ActionClient, GoalEvent, SOURCES};
+use crate::bind::{Binding, Call, CallKind, Observation, StepAction};
 use crate::cdr::{Message, decode, encode};
 use crate::dds::{Dds, OwnEndpoint, Quality, Received, Source, Writer, dds_topic, dds_type};
 use crate::layout::Layouts;
@@ -41,9 +41,9 @@ enum Channel {
 
 /// Something that a message told.
 #[derive(Clone, Debug)]
-pub(crate) enum Heard {
+pub(crate) enum RobotEvent {
     /// News of a goal of the action of this number.
-    Goal(usize, News),
+    Goal(usize, GoalEvent),
     /// Response to a call of the service of this number.
     Response(usize, Ticket, Message),
     /// Things that were detected.
@@ -197,14 +197,17 @@ impl Robot {
         let steps = names.flat_map(|name| binding.steps(name).unwrap_or_default());
         for deed in steps.map(|step| step.deed) {
             match deed {
-                Deed::Call(call) => self.open_call(&call)?,
-                Deed::Require(text) => self.expression(&text)?,
-                Deed::Answer { topic, type_name, value, .. } => {
+                StepAction::Call(call) => self.open_call(&call)?,
+                StepAction::Require(text) => self.expression(&text)?,
+                StepAction::Answer { topic, type_name, value, .. } => {
                     self.keep(&topic, &type_name)?;
                     self.expression(&value)?;
                 }
-                Deed::Motion(_) | Deed::Posture(_) | Deed::Go(_) | Deed::Gripper(_) => {}
-                Deed::Wait(_) | Deed::Look | Deed::Detect | Deed::Search => {}
+                StepAction::Motion(_)
+                | StepAction::Posture(_)
+                | StepAction::Go(_)
+                | StepAction::Gripper(_) => {}
+                StepAction::Wait(_) | StepAction::Look | StepAction::Detect | StepAction::Search => {}
             }
         }
         for call in &binding.stop {
@@ -347,7 +350,7 @@ impl Robot {
     }
 
     /// Lets time pass for all actions.
-    pub(crate) fn tick(&mut self) -> Vec<Heard> {
+    pub(crate) fn tick(&mut self) -> Vec<RobotEvent> {
         if self.dds.has_lost(&self.peers) {
             self.tell("a node of the robot was not heard of for its lease time: DDS is joined anew");
             self.join_again().unwrap_or_else(|wrong| self.tell(&wrong));
@@ -359,7 +362,7 @@ impl Robot {
         for (at, action) in self.actions.iter_mut().enumerate() {
             let is_there = self.missing[at].is_empty();
             let news = action.tick(&self.layouts, is_there);
-            heard.extend(news.into_iter().map(|news| Heard::Goal(at, news)));
+            heard.extend(news.into_iter().map(|news| RobotEvent::Goal(at, news)));
         }
         heard
     }

@@ -170,7 +170,7 @@ pub(crate) struct Server {
 
 /// A request that is to be answered.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) struct Asked {
+pub(crate) struct PendingRequest {
     header: Option<(u64, i64)>,
     identity: Request,
 }
@@ -203,7 +203,11 @@ impl Server {
     /// # Errors
     ///
     /// Why the message is none of the layout.
-    pub(crate) fn hear(&self, layouts: &Layouts, received: &Received) -> Result<(Asked, Message), String> {
+    pub(crate) fn hear(
+        &self,
+        layouts: &Layouts,
+        received: &Received,
+    ) -> Result<(PendingRequest, Message), String> {
         // Fast DDS names in a request the reader that waits for the response.
         let (writer, number) = received.identity;
         let identity = (received.answers.map_or(writer, |(reader, _)| reader), number);
@@ -215,7 +219,7 @@ impl Server {
             }
         };
         let bytes = received.bytes.get(start..).unwrap_or_default();
-        Ok((Asked { header, identity }, decode(layouts, &self.request, bytes)?))
+        Ok((PendingRequest { header, identity }, decode(layouts, &self.request, bytes)?))
     }
 
     /// Answers a request.
@@ -223,7 +227,12 @@ impl Server {
     /// # Errors
     ///
     /// The field that the layout lacks, or why DDS did not take it.
-    pub(crate) fn answer(&self, layouts: &Layouts, asked: Asked, value: &Value) -> Result<(), String> {
+    pub(crate) fn answer(
+        &self,
+        layouts: &Layouts,
+        asked: PendingRequest,
+        value: &Value,
+    ) -> Result<(), String> {
         let message = encode(layouts, &self.response, value)?;
         match asked.header {
             None => self.writer.write(message, Some(asked.identity)),
@@ -264,7 +273,7 @@ mod tests {
         }
         std::thread::sleep(Duration::from_millis(200));
         let tickets = [true, false].map(|on| client.call(&layouts, &json!({"data": on})).unwrap());
-        let mut requests: Vec<(Asked, Message)> = Vec::new();
+        let mut requests: Vec<(PendingRequest, Message)> = Vec::new();
         while requests.len() < 2 {
             let received = asked.recv_timeout(Duration::from_secs(5)).unwrap();
             requests.push(server.hear(&layouts, &received).unwrap());

@@ -8,13 +8,13 @@ mod stopping;
 
 pub(crate) use stopping::stand_still;
 
-use crate::action::{End, News, Uuid};
-use crate::bind::{Deed, Step};
+use crate::action::{End, GoalEvent, Uuid};
+use crate::bind::{Step, StepAction};
 use crate::cdr::Message;
 use crate::joint::Part;
 use crate::observe::Found;
 use crate::plan::{Card, NoPath};
-use crate::robot::{Heard, Robot};
+use crate::robot::{Robot, RobotEvent};
 use crate::service::Ticket;
 use crate::state::Parts;
 use crate::world::World;
@@ -287,9 +287,9 @@ impl Task {
     }
 
     /// Takes in what was heard of goals, calls and topics.
-    pub(crate) fn hear(&mut self, around: &mut Surroundings<'_>, heard: &Heard) {
+    pub(crate) fn hear(&mut self, around: &mut Surroundings<'_>, heard: &RobotEvent) {
         match heard {
-            Heard::Goal(action, News::Accepted(id)) => {
+            RobotEvent::Goal(action, GoalEvent::Accepted(id)) => {
                 if let Some(running) = self.running.iter().find(|one| one.action == *action && one.id == *id)
                 {
                     let millis = running.sent.elapsed().as_secs_f64() * 1e3;
@@ -297,8 +297,8 @@ impl Task {
                     self.feedback.push(format!("{name} accepted after {millis:.2} ms"));
                 }
             }
-            Heard::Goal(action, News::Ended(id, end)) => self.hear_end(around, *action, *id, end),
-            Heard::Response(service, ticket, message) => {
+            RobotEvent::Goal(action, GoalEvent::Ended(id, end)) => self.hear_end(around, *action, *id, end),
+            RobotEvent::Response(service, ticket, message) => {
                 if let Phase::Calling { service: own, ticket: open, .. } = &self.phase
                     && own == service
                     && open == ticket
@@ -312,12 +312,12 @@ impl Task {
                     }
                 }
             }
-            Heard::Detected(things) => {
+            RobotEvent::Detected(things) => {
                 if matches!(self.phase, Phase::Detecting { .. }) {
                     self.hear_detections(around, things);
                 }
             }
-            Heard::Goal(_, News::Feedback(..)) | Heard::Kept => {}
+            RobotEvent::Goal(_, GoalEvent::Feedback(..)) | RobotEvent::Kept => {}
         }
     }
 
@@ -415,18 +415,18 @@ impl Task {
         }
         let Some(step) = self.steps.front().cloned() else { return true };
         match step.deed {
-            Deed::Motion(direction) => self.begin_motion(around, direction),
-            Deed::Posture(_) | Deed::Go(_) => self.begin_way(around),
-            Deed::Search => self.begin_search(around),
-            Deed::Look => self.begin_look(around),
-            Deed::Gripper(opening) => self.begin_gripper(around, opening),
-            Deed::Call(call) => self.begin_call(around, &call),
-            Deed::Wait(secs) => {
+            StepAction::Motion(direction) => self.begin_motion(around, direction),
+            StepAction::Posture(_) | StepAction::Go(_) => self.begin_way(around),
+            StepAction::Search => self.begin_search(around),
+            StepAction::Look => self.begin_look(around),
+            StepAction::Gripper(opening) => self.begin_gripper(around, opening),
+            StepAction::Call(call) => self.begin_call(around, &call),
+            StepAction::Wait(secs) => {
                 let until = Instant::now() + Duration::from_secs_f64(secs.clamp(0.0, 3600.0));
                 self.phase = Phase::Waiting { until };
                 false
             }
-            Deed::Require(text) => {
+            StepAction::Require(text) => {
                 match around.robot.holds(&text, &self.words()) {
                     Ok(true) => self.step_done(),
                     Ok(false) => self.fail(around, format!("`{text}` is false")),
@@ -434,7 +434,7 @@ impl Task {
                 }
                 true
             }
-            Deed::Detect => {
+            StepAction::Detect => {
                 let secs = around.robot.binding.detections.as_ref().map_or(0.0, |topic| topic.timeout_secs);
                 let most = if self.finds_all() { FINDS_ALL_SECS } else { 3600.0 };
                 let until = Instant::now() + Duration::from_secs_f64(secs.clamp(0.0, most));
@@ -442,7 +442,7 @@ impl Task {
                 self.phase = Phase::Detecting { until };
                 false
             }
-            Deed::Answer { topic, value, timeout_secs, .. } => {
+            StepAction::Answer { topic, value, timeout_secs, .. } => {
                 around.robot.forget(&topic);
                 let until = Instant::now() + Duration::from_secs_f64(timeout_secs.clamp(0.0, 3600.0));
                 self.phase = Phase::Answering { topic, value, until };
@@ -463,7 +463,7 @@ impl Task {
                         Box::new(Err("the search for a path has broken off".to_owned().into()))
                     }
                 };
-                let looks = self.steps.front().is_some_and(|step| step.deed == Deed::Look);
+                let looks = self.steps.front().is_some_and(|step| step.deed == StepAction::Look);
                 match *answer {
                     Ok(witness) => self.take_path(around, &witness),
                     Err(_) if looks => self.step_done(),

@@ -6,7 +6,7 @@ use crate::action::{Uuid, uuid};
 use crate::cdr::{Message, decode, encode};
 use crate::dds::{Dds, Quality, Received, Source, Writer, dds_topic, dds_type};
 use crate::layout::{Distribution, Layouts};
-use crate::service::{Asked, Interface, Middleware, Server};
+use crate::service::{Interface, Middleware, PendingRequest, Server};
 use answers::{Answer, OpenQuestion, Page};
 use crossbeam_channel::{Receiver, Sender, bounded, select, tick};
 use serde_json::{Value, json};
@@ -77,7 +77,7 @@ fn middleware(text: &str) -> Result<Middleware, String> {
 }
 
 /// What a run said.
-enum Said {
+enum RunMessage {
     Event(Uuid, String),
     /// Page at which it takes answers.
     Page(Uuid, Page),
@@ -90,7 +90,7 @@ struct Goal {
     id: Uuid,
     status: i8,
     result: Value,
-    asked: Vec<Asked>,
+    asked: Vec<PendingRequest>,
     child: Option<u32>,
     page: Option<Page>,
     question: Option<OpenQuestion>,
@@ -108,7 +108,7 @@ struct Tasks<'a> {
     state: Writer,
     questions: Writer,
     goals: Vec<Goal>,
-    said: Sender<Said>,
+    said: Sender<RunMessage>,
 }
 
 /// Serves the action until the process is ended.
@@ -128,7 +128,7 @@ pub(crate) fn serve(args: &TasksArgs) -> Result<u8, String> {
 }
 
 impl<'a> Tasks<'a> {
-    fn open(args: &'a TasksArgs, dds: &Dds, said: Sender<Said>) -> Result<Self, String> {
+    fn open(args: &'a TasksArgs, dds: &Dds, said: Sender<RunMessage>) -> Result<Self, String> {
         let layouts = Layouts::of(args.distribution, None)?;
         let server = |service: &str, interface: Interface<'_>, source: Source| {
             Server::new(
@@ -172,7 +172,7 @@ impl<'a> Tasks<'a> {
         })
     }
 
-    fn run(&mut self, received: &Receiver<Received>, heard: &Receiver<Said>) -> Result<u8, String> {
+    fn run(&mut self, received: &Receiver<Received>, heard: &Receiver<RunMessage>) -> Result<u8, String> {
         let ticks = tick(Duration::from_secs(1));
         loop {
             let done = select! {
@@ -251,14 +251,14 @@ impl<'a> Tasks<'a> {
                     // The page may take its time.
                     std::thread::spawn(move || {
                         let done = page.answer(&open, &answer);
-                        let _ = said.send(Said::Answered(open.id, done));
+                        let _ = said.send(RunMessage::Answered(open.id, done));
                     });
                     return;
                 }
                 (answer.question, "no such question is open".to_owned())
             }
         };
-        self.take(Said::Answered(question, Err(refused)));
+        self.take(RunMessage::Answered(question, Err(refused)));
     }
 
     /// Starts the run of a policy. One runs at a time.
@@ -310,9 +310,9 @@ impl<'a> Tasks<'a> {
         Ok(())
     }
 
-    fn take(&mut self, said: Said) {
+    fn take(&mut self, said: RunMessage) {
         match said {
-            Said::Event(id, event) => {
+            RunMessage::Event(id, event) => {
                 if let Ok(line) = serde_json::from_str::<Value>(&event) {
                     self.take_question(id, &line);
                 }
@@ -320,16 +320,16 @@ impl<'a> Tasks<'a> {
                 let message = json!({"goal_id": {"uuid": id}, "feedback": {"event": event}});
                 self.publish(&self.feedback, &format!("{TYPE}_FeedbackMessage"), &message);
             }
-            Said::Page(id, page) => {
+            RunMessage::Page(id, page) => {
                 let goal = self.goals.iter_mut().find(|goal| goal.id == id);
                 goal.into_iter().for_each(|goal| goal.page = Some(page.clone()));
             }
-            Said::Answered(question, done) => {
+            RunMessage::Answered(question, done) => {
                 let event = json!({"event": "answer", "question": question, "taken": done.is_ok(),
                     "why": done.err()});
                 self.publish(&self.state, "std_msgs/String", &json!({"data": event.to_string()}));
             }
-            Said::Ended(id, code, text) => {
+            RunMessage::Ended(id, code, text) => {
                 if let Some(goal) = self.goals.iter_mut().find(|goal| goal.id == id) {
                     goal.status = match (goal.status, code) {
                         (_, 0) => SUCCEEDED,
@@ -384,7 +384,7 @@ impl<'a> Tasks<'a> {
 }
 
 /// Reads what a run prints until it ends.
-fn follow(mut child: Child, id: Uuid, file: &std::path::Path, said: &Sender<Said>) {
+fn follow(mut child: Child, id: Uuid, file: &std::path::Path, said: &Sender<RunMessage>) {
     let errors = child.stderr.take().map(|stderr| {
         let said = said.clone();
         std::thread::spawn(move || {
@@ -394,7 +394,7 @@ fn follow(mut child: Child, id: Uuid, file: &std::path::Path, said: &Sender<Said
             while first.read_until(b'\n', &mut line).is_ok_and(|read| read > 0) {
                 match Page::of_line(&String::from_utf8_lossy(&line)) {
                     // Its token is for nobody else.
-                    Some(page) => drop(said.send(Said::Page(id, page))),
+                    Some(page) => drop(said.send(RunMessage::Page(id, page))),
                     None => text.extend_from_slice(&line),
                 }
                 line.clear();
@@ -406,7 +406,7 @@ fn follow(mut child: Child, id: Uuid, file: &std::path::Path, said: &Sender<Said
     });
     if let Some(stdout) = child.stdout.take() {
         for line in BufReader::new(stdout).lines().map_while(Result::ok) {
-            let _ = said.send(Said::Event(id, line));
+            let _ = said.send(RunMessage::Event(id, line));
         }
     }
     let text = errors.and_then(|errors| errors.join().ok()).unwrap_or_default();
@@ -414,7 +414,7 @@ fn follow(mut child: Child, id: Uuid, file: &std::path::Path, said: &Sender<Said
         String::from_utf8_lossy(&text).chars().filter(|letter| *letter != '\0').take(MAX_TEXT).collect();
     let code = child.wait().ok().and_then(|status| status.code()).unwrap_or(130);
     let _ = std::fs::remove_file(file);
-    let _ = said.send(Said::Ended(id, code, text));
+    let _ = said.send(RunMessage::Ended(id, code, text));
 }
 
 fn hexadecimal(id: Uuid) -> String {

@@ -1,11 +1,11 @@
 //! InteLiPlan's dialect: tagged texts, and lists of actions that become policies which run.
-use motet_planner::inteliplan::actions::{self, Loose, NoPolicy};
+use motet_planner::inteliplan::actions::{self, InterpretedPolicy, NoPolicy};
 use motet_planner::inteliplan::exchange::{self, Exchange, NoDialogue};
 use motet_requests::RequestContext;
 use motet_syntax::{FileId, Severity, Source, Sources};
 use motet_tests::setup;
 
-fn read(list: &str) -> Result<Loose, NoPolicy> {
+fn read(list: &str) -> Result<InterpretedPolicy, NoPolicy> {
     let (robot, scene) = (setup::robot("hsr"), setup::scene("kitchen"));
     let (session, _) = setup::session(Some(&robot), Some(&scene), &mut Sources::default());
     actions::read(list, "plan", &session, Some(&robot), &RequestContext::new(&scene))

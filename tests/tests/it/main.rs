@@ -11,11 +11,11 @@
 )]
 
 mod advice;
-mod beside;
 mod canonical;
 mod conversation;
 mod corpus;
 mod dialect;
+mod during_motion;
 mod dynamic;
 mod engines;
 mod explanation;

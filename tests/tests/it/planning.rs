@@ -18,7 +18,7 @@ fn plan(robot: &str, scene: &str, goals: &[&str]) -> Result<Planned, PlanError> 
             name: format!("goal_{index}"),
             only_if: None,
             awaits: None,
-            deed: None,
+            named_step: None,
         })
         .collect();
     builtin::plan(&session, Some(&robot), "plan", &aims)

@@ -2,14 +2,14 @@
 use std::time::Duration;
 
 use motet_compiler::Session;
-use motet_planner::prompt::{Prompt, StaticPrompt, TOKENS, Written};
+use motet_planner::prompt::{Prompt, StaticPrompt, TOKENS, WrittenPrompt};
 use motet_requests::RequestContext;
 use motet_robots::card::Robot;
 use motet_runtime::memory::{Memory, MemoryLimits};
 use motet_syntax::{FileId, Severity, Source, Sources};
 use motet_tests::setup;
 
-fn write(session: &Session, robot: &Robot, situation: &RequestContext<'_>) -> Written {
+fn write(session: &Session, robot: &Robot, situation: &RequestContext<'_>) -> WrittenPrompt {
     let scene = situation.scene;
     let prompt = Prompt {
         session,

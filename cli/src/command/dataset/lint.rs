@@ -5,8 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use motet_dataset::lint::{Finding, Linter, Place, RowFault, Shelf, Worlds};
-use motet_dataset::share::{Counts, Share};
+use motet_dataset::coverage::{Counts, Share};
+use motet_dataset::lint::{Finding, ImageCheck, Linter, Place, RowFault, Worlds};
 use motet_dataset::{Posture, format, picture};
 use motet_project::files::{Bytes, read_small};
 use motet_project::{ProjectError, read_scene, robot_names};
@@ -55,8 +55,8 @@ pub(super) struct LintArgs {
 /// Lints files of rows.
 pub(super) fn lint(args: &LintArgs, report: &mut Report) -> Result<Exit, CliError> {
     let worlds = worlds(args, report)?;
-    let mut shelf = Images::default();
-    let mut linter = Linter::new(&worlds).with_shelf(&mut shelf);
+    let mut images = Images::default();
+    let mut linter = Linter::new(&worlds).with_images(&mut images);
     let (mut rows, mut wrong, mut counts) = (0, BTreeSet::new(), Counts::default());
     for path in &args.files {
         let file = path.display().to_string();
@@ -73,7 +73,7 @@ pub(super) fn lint(args: &LintArgs, report: &mut Report) -> Result<Exit, CliErro
             Ok(if report.out.is_closed() { Flow::Stop } else { Flow::Continue })
         })?;
     }
-    let unused = shelf.unused(&args.files)?;
+    let unused = images.unused(&args.files)?;
     for finding in &unused {
         report.out.line(&shown(finding, args.format));
     }
@@ -205,7 +205,7 @@ const EXTENSIONS: &[&str] = &["png", "jpg", "jpeg", "webp", "gif"];
 #[derive(Debug, Default)]
 pub(super) struct Images(BTreeMap<PathBuf, Option<String>>);
 
-impl Shelf for Images {
+impl ImageCheck for Images {
     fn fault(&mut self, file: &str, path: &str) -> Option<String> {
         let found = self.0.entry(folder(Path::new(file)).join(path));
         let place = found.key().clone();

@@ -4,7 +4,7 @@
 
 use super::term::{Condition, Duration, Form, Term};
 use super::wire::{self, ReactKind};
-use super::{Lenient, Spanned};
+use super::{Fallible, Spanned};
 use crate::ast::{
     Block, Catch, CatchOn, Do, End, EndKind, Expr, ExprKind, Keep, KeepKind, MAX_MISTAKES, MAX_NESTING,
     MAX_STEPS, Name, Policy, Reaction, Step, StepKind, TypeExpr, When,
@@ -53,7 +53,7 @@ impl Converter {
             return Block::new(Vec::new(), span);
         }
         let (mut block, mut gaps) = (Vec::with_capacity(steps.value.len()), Vec::new());
-        for (index, Lenient(step)) in (0_u32..).zip(steps.value) {
+        for (index, Fallible(step)) in (0_u32..).zip(steps.value) {
             if self.found.len().max(gaps.len()) > MAX_MISTAKES {
                 break;
             }
@@ -93,7 +93,7 @@ impl Converter {
             wire::Step::Wait(step) => (self.wait(step, depth), None),
             wire::Step::Monitor(step) => {
                 self.at_least_one(step.monitor.value.is_empty(), step.monitor.span, "monitor", "condition");
-                let whens = step.monitor.value.into_iter().filter_map(|Lenient(when)| when);
+                let whens = step.monitor.value.into_iter().filter_map(|Fallible(when)| when);
                 let whens = whens.filter_map(|when| self.when(when, depth)).collect();
                 (StepKind::Monitor { whens, body: self.block(step.during, depth + 1) }, step.finally)
             }
@@ -106,7 +106,7 @@ impl Converter {
                 let Spanned { value: catch, span } = step.catch.unwrap_or_else(|| Vec::new().into());
                 self.at_least_one(catch.is_empty() && !is_bare, span, "try", "handler");
                 let body = self.block(step.r#try, depth + 1);
-                let catches = catch.into_iter().filter_map(|Lenient(catch)| catch);
+                let catches = catch.into_iter().filter_map(|Fallible(catch)| catch);
                 let catches = catches.map(|catch| self.catch(catch, depth)).collect();
                 (StepKind::Try { body, catches }, step.finally)
             }
@@ -142,7 +142,7 @@ impl Converter {
     }
 
     fn keeps(&mut self, keeps: wire::Keeps, depth: usize) -> Vec<Keep> {
-        let keeps = keeps.value.into_iter().filter_map(|Lenient(kept)| kept);
+        let keeps = keeps.value.into_iter().filter_map(|Fallible(kept)| kept);
         let one = |Spanned { value, span }: Spanned<wire::KeepRule>| {
             let kind = match value {
                 wire::KeepRule::OutOf(kept) => KeepKind::OutOf(self.term(kept.out_of, depth + 1)),

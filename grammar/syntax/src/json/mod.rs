@@ -34,7 +34,7 @@ use smol_str::{SmolStr, format_smolstr};
 
 pub(crate) use edits::EditedText;
 
-pub use crate::located::{Lenient, MAX_BRACKETS, Spanned};
+pub use crate::located::{Fallible, MAX_BRACKETS, Spanned};
 
 use crate::ast::{File, Item, MAX_BYTES};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -49,7 +49,7 @@ use crate::suggest;
 /// Reads a document as a `T`, with all its mistakes.
 ///
 /// A value comes with errors where the reading could go on: a duplicate key (the first counts), an unknown
-/// key (it is skipped), a mistake in a [`Lenient`]. No value comes without an error. Structs are closed even
+/// key (it is skipped), a mistake in a [`Fallible`]. No value comes without an error. Structs are closed even
 /// without `deny_unknown_fields`. Paths are JSON Pointers. O(bytes).
 #[must_use]
 pub fn read<'s, T: Deserialize<'s> + JsonSchema>(

@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 
 use super::term::{Args, Awaited, Condition, Count, Do, Duration, Form, Manner, Term};
-use super::{Lenient, Spanned};
+use super::{Fallible, Spanned};
 
 /// A Motet policy.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
@@ -47,7 +47,7 @@ pub(crate) struct Document {
 }
 
 /// Steps that run one after the other.
-pub(crate) type Steps = Spanned<Vec<Lenient<Spanned<Step>>>>;
+pub(crate) type Steps = Spanned<Vec<Fallible<Spanned<Step>>>>;
 
 /// Steps that run once, however the step before them is left.
 pub(crate) type Cleanup = Option<Box<Steps>>;
@@ -144,7 +144,7 @@ pub(crate) struct Wait {
 pub(crate) struct Monitor {
     /// Watched conditions with their reactions.
     #[schemars(length(min = 1))]
-    pub(crate) monitor: Spanned<Vec<Lenient<Spanned<When>>>>,
+    pub(crate) monitor: Spanned<Vec<Fallible<Spanned<When>>>>,
     /// Steps that run meanwhile.
     pub(crate) during: Steps,
     /// Steps that run once, however the monitor is left. It does not watch them.
@@ -215,7 +215,7 @@ pub(crate) struct Try {
     /// Handlers, tried in order; may be left out beside `finally`.
     #[schemars(length(min = 1))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) catch: Option<Spanned<Vec<Lenient<Spanned<Catch>>>>>,
+    pub(crate) catch: Option<Spanned<Vec<Fallible<Spanned<Catch>>>>>,
     /// Steps that run once, however the steps and their handlers are left.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) finally: Cleanup,
@@ -308,7 +308,7 @@ pub(crate) struct Keep {
 }
 
 /// Rules of where the robot may not go.
-pub(crate) type Keeps = Spanned<Vec<Lenient<Spanned<KeepRule>>>>;
+pub(crate) type Keeps = Spanned<Vec<Fallible<Spanned<KeepRule>>>>;
 
 /// Rule of where the robot may not go; its first key names the form.
 #[derive(Clone, PartialEq, Debug, Deserialize, JsonSchema)]

@@ -1,10 +1,10 @@
 //! [`serde::Deserializer`] over a [`Located`] tree: ordinary derived types are read with it.
 //!
 //! It differs from `serde_json` in four points. An unknown key is stepped over and noted, unless the list of
-//! fields holds [`OPEN`]. [`super::Spanned`] gets its range. A [`super::Lenient`] absorbs a mistake and notes
-//! it. And an enum may be written as an object with the variant's name among its keys: where the variant's
-//! struct has that key as a field, it is the whole object, as in `{"repeat": 3, "steps": […]}`; otherwise it
-//! is the value of the key, as in `{"box": [1, 2, 3]}`.
+//! fields holds [`OPEN`]. [`super::Spanned`] gets its range. A [`super::Fallible`] absorbs a mistake and
+//! notes it. And an enum may be written as an object with the variant's name among its keys: where the
+//! variant's struct has that key as a field, it is the whole object, as in `{"repeat": 3, "steps": […]}`;
+//! otherwise it is the value of the key, as in `{"box": [1, 2, 3]}`.
 
 use std::cell::RefCell;
 use std::fmt::{self, Display};
@@ -291,7 +291,7 @@ impl<'s> de::VariantAccess<'s> for Reader<'_, 's> {
     }
 }
 
-/// Content of [`super::Spanned`], a value and its range as one number, or of [`super::Lenient`], a value or
+/// Content of [`super::Spanned`], a value and its range as one number, or of [`super::Fallible`], a value or
 /// nothing.
 struct Wrapped<'t, 's> {
     reader: Reader<'t, 's>,

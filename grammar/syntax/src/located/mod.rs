@@ -2,8 +2,8 @@
 //!
 //! A document is read in three steps. A parser makes a [`Located`] tree ([`parse_json`]; who reads TOML
 //! converts the tree of its library). The tree is deserialized by plain serde, with [`Spanned`] for ranges
-//! and [`Lenient`] for parts that may fail alone. Only if that meets a mistake, [`check_schema`] compares the
-//! tree with the JSON Schema of the type and reports every [`Mismatch`] at its place; a document without
+//! and [`Fallible`] for parts that may fail alone. Only if that meets a mistake, [`check_schema`] compares
+//! the tree with the JSON Schema of the type and reports every [`Mismatch`] at its place; a document without
 //! mistakes never pays for it.
 
 mod de;
@@ -182,7 +182,7 @@ pub(crate) fn push_token(pointer: &mut String, token: &str) {
 
 /// Newtype name by which [`de`] knows [`Spanned`].
 pub(crate) const SPANNED: &str = "$spanned";
-/// Newtype name by which [`de`] knows [`Lenient`].
+/// Newtype name by which [`de`] knows [`Fallible`].
 pub(crate) const LENIENT: &str = "$lenient_value";
 
 /// A value and its byte range in the document. Read by [`crate::json::read`] it has its span; by any other
@@ -301,15 +301,15 @@ impl<T: JsonSchema> JsonSchema for Spanned<T> {
 /// mistake does not hide those of its neighbours. By any other deserializer it is as strict as `T`. It is
 /// written, and described in a schema, as `T`; `None` is written as `null`.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
-pub struct Lenient<T>(pub Option<T>);
+pub struct Fallible<T>(pub Option<T>);
 
-impl<T> From<T> for Lenient<T> {
+impl<T> From<T> for Fallible<T> {
     fn from(value: T) -> Self {
         Self(Some(value))
     }
 }
 
-impl<'de, T: Deserialize<'de>> Deserialize<'de> for Lenient<T> {
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Fallible<T> {
     #[inline]
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_newtype_struct(LENIENT, LenientVisitor(PhantomData))
@@ -319,29 +319,29 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Lenient<T> {
 struct LenientVisitor<T>(PhantomData<T>);
 
 impl<'de, T: Deserialize<'de>> Visitor<'de> for LenientVisitor<T> {
-    type Value = Lenient<T>;
+    type Value = Fallible<T>;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("a value")
     }
 
-    fn visit_newtype_struct<D: Deserializer<'de>>(self, deserializer: D) -> Result<Lenient<T>, D::Error> {
-        T::deserialize(deserializer).map(Lenient::from)
+    fn visit_newtype_struct<D: Deserializer<'de>>(self, deserializer: D) -> Result<Fallible<T>, D::Error> {
+        T::deserialize(deserializer).map(Fallible::from)
     }
 
     #[inline]
-    fn visit_seq<A: SeqAccess<'de>>(self, mut access: A) -> Result<Lenient<T>, A::Error> {
-        access.next_element_seed(PhantomData::<T>).map(Lenient)
+    fn visit_seq<A: SeqAccess<'de>>(self, mut access: A) -> Result<Fallible<T>, A::Error> {
+        access.next_element_seed(PhantomData::<T>).map(Fallible)
     }
 }
 
-impl<T: Serialize> Serialize for Lenient<T> {
+impl<T: Serialize> Serialize for Fallible<T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         self.0.serialize(serializer)
     }
 }
 
-impl<T: JsonSchema> JsonSchema for Lenient<T> {
+impl<T: JsonSchema> JsonSchema for Fallible<T> {
     fn schema_name() -> Cow<'static, str> {
         T::schema_name()
     }

@@ -18,7 +18,7 @@ use crate::ast::{
     Policy, Reaction, Step, StepKind, TypeExpr, When,
 };
 use crate::json::term::{self, Args, Awaited, Condition, Count, Duration, Field, Form, Get, Is, Term};
-use crate::json::{Lenient, Spanned, wire};
+use crate::json::{Fallible, Spanned, wire};
 use crate::render::escaped_json;
 use crate::unit::{Dimension, Unit};
 use crate::words::spelled;
@@ -84,7 +84,7 @@ struct WireTranslation {
 impl WireTranslation {
     fn block(&mut self, block: &Block) -> wire::Steps {
         let steps: Vec<_> =
-            block.steps.iter().map(|step| Lenient::from(Spanned::from(self.step(step)))).collect();
+            block.steps.iter().map(|step| Fallible::from(Spanned::from(self.step(step)))).collect();
         steps.into()
     }
 
@@ -115,14 +115,14 @@ impl WireTranslation {
             }
             StepKind::Monitor { whens, body } => {
                 let whens: Vec<_> =
-                    whens.iter().map(|when| Lenient::from(Spanned::from(self.when(when)))).collect();
+                    whens.iter().map(|when| Fallible::from(Spanned::from(self.when(when)))).collect();
                 let during = self.block(body);
                 wire::Step::Monitor(wire::Monitor { monitor: whens.into(), during, finally: None })
             }
             StepKind::Try { body, catches } => {
                 let r#try = self.block(body);
                 let catch: Vec<_> =
-                    catches.iter().map(|catch| Lenient::from(Spanned::from(self.catch(catch)))).collect();
+                    catches.iter().map(|catch| Fallible::from(Spanned::from(self.catch(catch)))).collect();
                 let catch = if catch.is_empty() { None } else { Some(catch.into()) };
                 wire::Step::Try(wire::Try { r#try, catch, finally: None })
             }
@@ -189,7 +189,7 @@ impl WireTranslation {
                 at_least: self.term(at_least).into(),
             }),
         };
-        let keeps: Vec<_> = keeps.iter().map(one).map(|kept| Lenient::from(Spanned::from(kept))).collect();
+        let keeps: Vec<_> = keeps.iter().map(one).map(|kept| Fallible::from(Spanned::from(kept))).collect();
         keeps.into()
     }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use motet_syntax::json::{self, Lenient, Spanned};
+use motet_syntax::json::{self, Fallible, Spanned};
 use motet_syntax::{FileId, Source, read};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -14,7 +14,7 @@ struct Scene {
     #[serde(default)]
     name: Option<Spanned<String>>,
     #[serde(default)]
-    things: Vec<Lenient<Thing>>,
+    things: Vec<Fallible<Thing>>,
     #[serde(default)]
     joints: BTreeMap<String, f64>,
 }

@@ -8,7 +8,7 @@ use std::time::Duration;
 use crate::kitchen::{Heard, setting};
 use motet_decode::Grammar;
 use motet_planner::dialogue::{Conversation, DialogueObserver, NoOperator, Outcome, RunRecorder};
-use motet_planner::model::{Finish, Message, Model, ModelError, ModelPlanner, News, Reply, Settings};
+use motet_planner::model::{Finish, Message, Model, ModelError, ModelPlanner, Reply, ReplyEvent, Settings};
 use motet_runtime::{Engine, PendingCleanup, StartState, SwapRefusal, Time};
 use motet_sim::{Sim, SimOptions};
 
@@ -47,8 +47,8 @@ impl Model for Scripted {
     fn ask(&mut self, chat: &[Message], _: &Grammar) -> Result<Box<dyn Reply>, ModelError> {
         let text: Vec<&str> = chat.iter().map(|message| message.text.as_str()).collect();
         self.asked.borrow_mut().push(text.join("\n"));
-        let says = News::Piece(self.says.pop_front().unwrap().to_owned());
-        Ok(Box::new(Pieces(vec![News::End(Finish::Stop), says])))
+        let says = ReplyEvent::Piece(self.says.pop_front().unwrap().to_owned());
+        Ok(Box::new(Pieces(vec![ReplyEvent::End(Finish::Stop), says])))
     }
 
     fn name(&self) -> String {
@@ -56,11 +56,11 @@ impl Model for Scripted {
     }
 }
 
-struct Pieces(Vec<News>);
+struct Pieces(Vec<ReplyEvent>);
 
 impl Reply for Pieces {
-    fn next(&mut self, _: Duration) -> News {
-        self.0.pop().unwrap_or(News::Nothing)
+    fn next(&mut self, _: Duration) -> ReplyEvent {
+        self.0.pop().unwrap_or(ReplyEvent::Nothing)
     }
 }
 

@@ -10,7 +10,7 @@ use crate::server::{Act, Heard, Server};
 use motet_client::{ApiKey, Client, ClientSettings, EncodedImage, ServerUrl, content};
 use motet_decode::export::{Dialect, GrammarCarrier};
 use motet_decode::{Grammar, Subset};
-use motet_planner::model::{Finish, Message, Model as _, ModelError, News, Role, TokenUsage};
+use motet_planner::model::{Finish, Message, Model as _, ModelError, ReplyEvent, Role, TokenUsage};
 use motet_syntax::Syntax;
 use serde_json::{Value, json};
 
@@ -51,11 +51,11 @@ fn exchange(act: Act, change: impl FnOnce(ClientSettings) -> ClientSettings, dia
         Err(why) => Err(why),
         Ok(mut reply) => loop {
             match reply.next(Duration::from_millis(20)) {
-                News::Nothing | News::Retrying { .. } => {}
-                News::Piece(piece) => text.push_str(&piece),
-                News::Used(used) => usage = used,
-                News::End(finish) => break Ok(finish),
-                News::Failed(why) => break Err(why),
+                ReplyEvent::Nothing | ReplyEvent::Retrying { .. } => {}
+                ReplyEvent::Piece(piece) => text.push_str(&piece),
+                ReplyEvent::Used(used) => usage = used,
+                ReplyEvent::End(finish) => break Ok(finish),
+                ReplyEvent::Failed(why) => break Err(why),
             }
         },
     };

@@ -10,7 +10,7 @@ use motet_decode::{AcceptorFactory, Grammar, Subset};
 use motet_planner::builtin::{self, PlannedRequest};
 use motet_planner::dialogue::{Conversation, DialogueObserver, NoOperator, Outcome, Person, Problem};
 use motet_planner::model::{
-    Finish, Message, Model, ModelError, ModelPlanner, News, Reply, Settings, Start, StreamReader,
+    Finish, Message, Model, ModelError, ModelPlanner, Reply, ReplyEvent, Settings, Start, StreamReader,
     StreamVerdict,
 };
 use motet_requests::RequestContext;
@@ -324,14 +324,14 @@ fn model_planner_rest_that_is_wrong_is_planned_anew_from_where_the_first_step_ha
 }
 
 /// A model whose replies come a piece each time somebody looks.
-struct Told(VecDeque<Vec<News>>);
+struct Told(VecDeque<Vec<ReplyEvent>>);
 
 impl Told {
     fn new(replies: &[String]) -> Self {
         let pieces = |reply: &String| {
             let letters: Vec<char> = reply.chars().collect();
-            let pieces = letters.chunks(30).map(|piece| News::Piece(piece.iter().collect()));
-            pieces.chain([News::End(Finish::Stop)]).collect()
+            let pieces = letters.chunks(30).map(|piece| ReplyEvent::Piece(piece.iter().collect()));
+            pieces.chain([ReplyEvent::End(Finish::Stop)]).collect()
         };
         Self(replies.iter().map(pieces).collect())
     }
@@ -347,11 +347,11 @@ impl Model for Told {
     }
 }
 
-struct Bits(std::vec::IntoIter<News>);
+struct Bits(std::vec::IntoIter<ReplyEvent>);
 
 impl Reply for Bits {
-    fn next(&mut self, _: Duration) -> News {
-        self.0.next().unwrap_or(News::Nothing)
+    fn next(&mut self, _: Duration) -> ReplyEvent {
+        self.0.next().unwrap_or(ReplyEvent::Nothing)
     }
 }
 

@@ -7,7 +7,7 @@ use crate::server::{Act, Server};
 use motet_client::{Client, ClientSettings, EncodedImage, ImageError, ServerUrl};
 use motet_decode::export::{Dialect, GrammarCarrier};
 use motet_decode::{Grammar, Subset};
-use motet_planner::model::{Finish, Message, Model as _, ModelError, News, Role};
+use motet_planner::model::{Finish, Message, Model as _, ModelError, ReplyEvent, Role};
 
 fn chat() -> Vec<Message> {
     let message = |role, text: &str| Message::new(role, text);
@@ -25,12 +25,12 @@ fn ask(settings: ClientSettings) -> (String, usize, Result<Finish, ModelError>) 
     let (mut text, mut retries) = (String::new(), 0);
     loop {
         match reply.next(Duration::from_millis(20)) {
-            News::Nothing => {}
-            News::Piece(piece) => text.push_str(&piece),
-            News::Used(_) => {}
-            News::Retrying { .. } => retries += 1,
-            News::End(finish) => return (text, retries, Ok(finish)),
-            News::Failed(why) => return (text, retries, Err(why)),
+            ReplyEvent::Nothing => {}
+            ReplyEvent::Piece(piece) => text.push_str(&piece),
+            ReplyEvent::Used(_) => {}
+            ReplyEvent::Retrying { .. } => retries += 1,
+            ReplyEvent::End(finish) => return (text, retries, Ok(finish)),
+            ReplyEvent::Failed(why) => return (text, retries, Err(why)),
         }
     }
 }
@@ -184,7 +184,7 @@ fn client_who_drops_a_reply_hangs_up() {
     let grammar = Grammar::new(&session().signatures(), Subset::default());
     let mut client = Client::new(ClientSettings { max_bytes: usize::MAX, ..brisk(&server) }).unwrap();
     let mut reply = client.ask(&chat(), &grammar).unwrap();
-    while !matches!(reply.next(Duration::from_millis(20)), News::Piece(_)) {}
+    while !matches!(reply.next(Duration::from_millis(20)), ReplyEvent::Piece(_)) {}
     drop(reply);
     // The server stops writing once nobody listens, so it hears the next request to its end.
     let sent = || server.sent.load(std::sync::atomic::Ordering::SeqCst);

@@ -13,8 +13,8 @@ mod dialect;
 mod ebnf;
 mod limits;
 mod notation;
-mod schema;
 mod request_constraint;
+mod schema;
 mod terminal;
 
 pub use chat_body::{ChatBody, Delivery, Turn, TurnImage, TurnRole};

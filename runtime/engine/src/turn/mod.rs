@@ -1,7 +1,6 @@
-//! One event and everything that follows from it at that instant.
-//!
-//! A turn takes the event in, then makes transitions until none is left: watches first, outer before inner
-//! and earlier before later, then steps in document order. A budget bounds it.
+//! Turn: the engine's work on one event. It takes the event in, then makes transitions until none is left:
+//! watches first, outer before inner and earlier before later, then steps in document order. A budget bounds
+//! it. The files of this folder are the transitions, by kind of node.
 
 mod call;
 mod change;

@@ -14,7 +14,7 @@ use crate::planned::quoted;
 
 /// A policy from a list of actions, with the interpretations that the reader made.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Loose {
+pub struct InterpretedPolicy {
     /// The policy in text syntax, not yet checked.
     pub policy: String,
     /// Words that were read as something else, and arguments that were filled in.
@@ -106,7 +106,7 @@ pub fn read(
     session: &Session,
     robot: Option<&Robot>,
     situation: &RequestContext<'_>,
-) -> Result<Loose, NoPolicy> {
+) -> Result<InterpretedPolicy, NoPolicy> {
     let items = items(text, situation.scene);
     if items.is_empty() {
         return Err(NoPolicy::Empty);
@@ -123,7 +123,7 @@ pub fn read(
         policy.push('\n');
     }
     policy.push_str("}\n");
-    Ok(Loose { policy, warnings: reader.warnings })
+    Ok(InterpretedPolicy { policy, warnings: reader.warnings })
 }
 
 /// State of reading a list.

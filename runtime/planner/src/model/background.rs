@@ -13,7 +13,7 @@ use motet_syntax::{Syntax, print};
 use serde_json::{Map, Value as Json};
 use smol_str::SmolStr;
 
-use super::chat::{Finish, ModelError, News, Reply};
+use super::chat::{Finish, ModelError, Reply, ReplyEvent};
 use super::stream_reader::{StreamReader, StreamVerdict};
 use crate::background_work::CHECK_WITHIN;
 use crate::planned::Planned;
@@ -71,8 +71,8 @@ impl PendingRest {
             return RestProgress::Failed(ModelError::TooInvolved { secs: CHECK_WITHIN.as_secs() });
         }
         match self.reply.next(wait) {
-            News::Nothing | News::Used(_) | News::Retrying { .. } => RestProgress::Nothing,
-            News::Piece(piece) => {
+            ReplyEvent::Nothing | ReplyEvent::Used(_) | ReplyEvent::Retrying { .. } => RestProgress::Nothing,
+            ReplyEvent::Piece(piece) => {
                 if self.text.len() + piece.len() > REPLY_BYTES {
                     return RestProgress::Failed(ModelError::TooLong { bytes: REPLY_BYTES });
                 }
@@ -80,15 +80,15 @@ impl PendingRest {
                 self.reader.push(&piece);
                 self.reader.verdict(Duration::ZERO).unwrap_or(RestProgress::Some(piece))
             }
-            News::End(Finish::Stop) => {
+            ReplyEvent::End(Finish::Stop) => {
                 self.reader.end();
                 self.until = Some(Instant::now() + CHECK_WITHIN);
                 self.reader.verdict(Duration::ZERO).unwrap_or(RestProgress::Nothing)
             }
-            News::End(Finish::Length) => RestProgress::Failed(ModelError::CutOff {
+            ReplyEvent::End(Finish::Length) => RestProgress::Failed(ModelError::CutOff {
                 why: "it had written as much as it may".to_owned(),
             }),
-            News::Failed(why) => RestProgress::Failed(why),
+            ReplyEvent::Failed(why) => RestProgress::Failed(why),
         }
     }
 }

@@ -51,14 +51,14 @@ pub trait Model {
 
 /// A reply in transit. Dropping it closes the connection.
 pub trait Reply {
-    /// Waits at most `wait` for the next piece of the reply. After [`News::End`] and [`News::Failed`]
-    /// nothing follows.
-    fn next(&mut self, wait: Duration) -> News;
+    /// Waits at most `wait` for the next piece of the reply. Nothing follows [`ReplyEvent::End`] and
+    /// [`ReplyEvent::Failed`].
+    fn next(&mut self, wait: Duration) -> ReplyEvent;
 }
 
 /// Progress of a reply.
 #[derive(Clone, PartialEq, Debug)]
-pub enum News {
+pub enum ReplyEvent {
     Nothing,
     /// The next piece of its text.
     Piece(String),

@@ -14,7 +14,7 @@ mod stream_reader;
 
 pub use crate::reply_verdict::{ReplyVerdict, judge};
 pub use background::without_first_step;
-pub use chat::{Finish, Message, Model, ModelError, News, Reply, Role};
+pub use chat::{Finish, Message, Model, ModelError, Reply, ReplyEvent, Role};
 pub use chat::{ModelEvent, ModelObserver, TokenUsage};
 pub use planner::{ChatContext, ModelPlanner, ReadTo, Settings, Start, chat, chat_with};
-pub use stream_reader::{StreamReader, StreamVerdict, Wrong};
+pub use stream_reader::{ReplyMistake, StreamReader, StreamVerdict};

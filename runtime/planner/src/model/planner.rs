@@ -9,7 +9,7 @@ use motet_runtime::CameraImage;
 use motet_syntax::{Diagnostic, Source, Sources, print, render};
 
 use super::background::{PendingRest, REPLY_BYTES, RestProgress, first_step};
-use super::chat::{Finish, Message, Model, ModelError, News, Reply, Role};
+use super::chat::{Finish, Message, Model, ModelError, Reply, ReplyEvent, Role};
 use super::chat::{ModelEvent, ModelObserver};
 use super::prose;
 use super::stream_reader::{StreamReader, StreamVerdict};
@@ -301,12 +301,12 @@ impl<'m> ModelPlanner<'m> {
                 return Err(ModelError::Cancelled);
             }
             match reply.next(SLICE) {
-                News::Nothing => {}
-                News::Used(usage) => self.listener.hear(&ModelEvent::Used(usage)),
-                News::Retrying { why, after } => {
+                ReplyEvent::Nothing => {}
+                ReplyEvent::Used(usage) => self.listener.hear(&ModelEvent::Used(usage)),
+                ReplyEvent::Retrying { why, after } => {
                     self.listener.hear(&ModelEvent::Retrying { why: &why, after });
                 }
-                News::Piece(piece) => {
+                ReplyEvent::Piece(piece) => {
                     self.listener.hear(&ModelEvent::Wrote(&piece));
                     if reading.reply().len() + piece.len() > REPLY_BYTES {
                         return Err(ModelError::TooLong { bytes: REPLY_BYTES });
@@ -326,12 +326,12 @@ impl<'m> ModelPlanner<'m> {
                         return Ok(ReadEnd::Whole);
                     }
                 }
-                News::End(Finish::Stop) => return Ok(ReadEnd::Whole),
-                News::End(Finish::Length) => {
+                ReplyEvent::End(Finish::Stop) => return Ok(ReadEnd::Whole),
+                ReplyEvent::End(Finish::Length) => {
                     let why = "it had written as much as it may".to_owned();
                     return Err(ModelError::CutOff { why });
                 }
-                News::Failed(why) => return Err(why),
+                ReplyEvent::Failed(why) => return Err(why),
             }
         }
     }

@@ -59,12 +59,12 @@ pub enum StreamVerdict {
     /// The policy is complete; any further text is ignored.
     Whole,
     /// The reply is wrong, whatever follows.
-    Wrong(Wrong),
+    Wrong(ReplyMistake),
 }
 
 /// First error of a reply.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Wrong {
+pub struct ReplyMistake {
     /// First wrong byte of the reply.
     pub at: usize,
     /// Errors at that place.
@@ -200,7 +200,7 @@ impl<'s> StreamReader<'s> {
         if found.is_empty() || found.iter().any(|said| said.fix.is_some()) {
             return StreamVerdict::GoOn;
         }
-        StreamVerdict::Wrong(Wrong { at: suspect.at, findings: found })
+        StreamVerdict::Wrong(ReplyMistake { at: suspect.at, findings: found })
     }
 
     /// The policy so far with all open brackets closed; `None` without steps.
@@ -235,7 +235,7 @@ impl<'s> StreamReader<'s> {
         }
         let first = found.iter().map(|said| said.span.start as usize).min().unwrap_or(to);
         let at = suspect.map_or_else(|| self.in_reply(first), |suspect| suspect.at);
-        StreamVerdict::Wrong(Wrong { at, findings: found })
+        StreamVerdict::Wrong(ReplyMistake { at, findings: found })
     }
 
     /// Byte of the reply that became a byte of the scanned text. O(reply).

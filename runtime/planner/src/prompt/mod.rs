@@ -53,7 +53,7 @@ pub struct Prompt<'a> {
 
 /// A prompt, and the names of the sections that did not fit.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Written {
+pub struct WrittenPrompt {
     /// Text of the system message.
     pub system: String,
     /// Text of the user message.
@@ -70,7 +70,7 @@ type Section = (&'static str, String);
 impl Prompt<'_> {
     /// Writes the prompt for a request.
     #[must_use]
-    pub fn write(&self, request: &str) -> Written {
+    pub fn write(&self, request: &str) -> WrittenPrompt {
         let named = motet_requests::named(request, self.situation);
         let listed = |entities: &dyn Fn(&SmolStr) -> bool| scene::entities(self.situation, entities);
         let mut parts: Vec<Section> = vec![
@@ -111,7 +111,7 @@ impl Prompt<'_> {
         let system = join(&[&rules, text(0), text(3)]);
         let user = join(&[&scene, &now, &seen, text(2), &asked]);
         let tokens = (system.len() + user.len()).div_ceil(BYTES_PER_TOKEN);
-        Written { system, user, tokens, left_out }
+        WrittenPrompt { system, user, tokens, left_out }
     }
 
     /// The first request, the latest failure, and the latest events.

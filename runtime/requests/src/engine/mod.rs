@@ -5,10 +5,10 @@
 pub(crate) mod asking;
 pub(crate) mod effort;
 pub(crate) mod english;
-pub(crate) mod frame;
 pub(crate) mod noun;
 pub(crate) mod phrases;
 pub(crate) mod reader;
+pub(crate) mod rewrite;
 pub(crate) mod rule;
 pub(crate) mod template;
 pub(crate) mod token;

@@ -5,9 +5,9 @@ use std::collections::HashMap;
 
 use crate::engine::asking::{overtures, skip_leads, wish};
 use crate::engine::english::{DEICTICS, OF_IT};
-use crate::engine::frame::remark_end;
 use crate::engine::noun::{Noun, Relation, Spot, direction, is_direction, noun, place, spot, spots};
 use crate::engine::phrases::{List, list};
+use crate::engine::rewrite::remark_end;
 use crate::engine::token::{Token, words};
 use crate::engine::verb::{Act, Inflection, apart, base, begins, of_past, verb};
 

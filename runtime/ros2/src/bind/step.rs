@@ -92,7 +92,7 @@ pub(crate) enum CallKind {
 /// Step of a primitive.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Step {
-    pub(crate) deed: Deed,
+    pub(crate) deed: StepAction,
     /// Failure if the step does not succeed; the first that the primitive declares without one.
     pub(crate) fails: Option<String>,
     pub(crate) text: Option<String>,
@@ -100,11 +100,11 @@ pub(crate) struct Step {
 
 /// Effect of a step on the robot.
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) enum Deed {
+pub(crate) enum StepAction {
     Motion(Direction),
     /// Move to a posture of the card, along a path from where the robot stands.
     Posture(String),
-    /// Go to an entity, along a path from where the robot stands: a part of [`Deed::Search`].
+    /// Go to an entity, along a path from where the robot stands: a part of [`StepAction::Search`].
     Go(String),
     Gripper(Opening),
     Call(Call),
@@ -139,32 +139,32 @@ impl StepTable {
     ///
     /// The keys that are missing, or are too many.
     pub(crate) fn step(&self) -> Result<Step, String> {
-        let call = |kind, name: &String| -> Result<Deed, String> {
+        let call = |kind, name: &String| -> Result<StepAction, String> {
             let type_name = self.type_name.clone().ok_or_else(|| format!("`{name}` needs a `type`"))?;
             let message = self.message.clone().unwrap_or_default();
             let timeout_secs = self.timeout_secs.unwrap_or_else(late);
             // The message of a topic is sent at once: there is nothing to interrupt.
             let moves = kind != CallKind::Topic && self.moves.unwrap_or(true);
-            Ok(Deed::Call(Call { kind, name: name.clone(), type_name, message, timeout_secs, moves }))
+            Ok(StepAction::Call(Call { kind, name: name.clone(), type_name, message, timeout_secs, moves }))
         };
-        let answer = |topic: &String| -> Result<Deed, String> {
+        let answer = |topic: &String| -> Result<StepAction, String> {
             let type_name = self.type_name.clone().ok_or_else(|| format!("`{topic}` needs a `type`"))?;
             let value = self.value.clone().ok_or_else(|| format!("`{topic}` needs a `value`"))?;
             let timeout_secs = self.timeout_secs.unwrap_or(60.0);
-            Ok(Deed::Answer { topic: topic.clone(), type_name, value, timeout_secs })
+            Ok(StepAction::Answer { topic: topic.clone(), type_name, value, timeout_secs })
         };
         let deeds = [
-            self.motion.map(|direction| Ok(Deed::Motion(direction))),
-            self.posture.as_ref().map(|name| Ok(Deed::Posture(name.clone()))),
-            self.gripper.map(|opening| Ok(Deed::Gripper(opening))),
+            self.motion.map(|direction| Ok(StepAction::Motion(direction))),
+            self.posture.as_ref().map(|name| Ok(StepAction::Posture(name.clone()))),
+            self.gripper.map(|opening| Ok(StepAction::Gripper(opening))),
             self.action.as_ref().map(|name| call(CallKind::Action, name)),
             self.service.as_ref().map(|name| call(CallKind::Service, name)),
             self.topic.as_ref().map(|name| call(CallKind::Topic, name)),
-            self.wait_secs.map(|secs| Ok(Deed::Wait(secs))),
-            self.require.as_ref().map(|text| Ok(Deed::Require(text.clone()))),
-            self.look.filter(|is_set| *is_set).map(|_| Ok(Deed::Look)),
-            self.detect.filter(|is_set| *is_set).map(|_| Ok(Deed::Detect)),
-            self.search.filter(|is_set| *is_set).map(|_| Ok(Deed::Search)),
+            self.wait_secs.map(|secs| Ok(StepAction::Wait(secs))),
+            self.require.as_ref().map(|text| Ok(StepAction::Require(text.clone()))),
+            self.look.filter(|is_set| *is_set).map(|_| Ok(StepAction::Look)),
+            self.detect.filter(|is_set| *is_set).map(|_| Ok(StepAction::Detect)),
+            self.search.filter(|is_set| *is_set).map(|_| Ok(StepAction::Search)),
             self.answer.as_ref().map(answer),
         ];
         let mut deeds = deeds.into_iter().flatten();

@@ -1,6 +1,6 @@
 //! Steps of a binding against the declaration of their primitive: failures, names in messages, motions.
 
-use crate::bind::{Binding, Deed, Step};
+use crate::bind::{Binding, Step, StepAction};
 use crate::template::{ValueName, names};
 use motet_robots::card::Robot;
 use motet_syntax::ast::{Clause, Param, PrimitiveDecl, TypeExpr};
@@ -62,26 +62,34 @@ fn of_failure(step: &Step, declared: &PrimitiveDecl) -> Option<String> {
     })
 }
 
-fn of_deed(deed: &Deed, declared: &PrimitiveDecl, card: &Robot, kinds: &[&str]) -> Vec<String> {
+fn of_deed(deed: &StepAction, declared: &PrimitiveDecl, card: &Robot, kinds: &[&str]) -> Vec<String> {
     let primitive = &declared.name.text;
     let has_motion = declared.clauses.iter().any(|clause| matches!(clause, Clause::Motion(_)));
     let lacks = |param: &str| declared.params.iter().all(|own| own.name.text != param);
     match deed {
-        Deed::Motion(_) if !has_motion => vec![format!("`{primitive}` declares no motion")],
-        Deed::Posture(name) if card.postures.get(name.as_str()).is_none() => {
+        StepAction::Motion(_) if !has_motion => vec![format!("`{primitive}` declares no motion")],
+        StepAction::Posture(name) if card.postures.get(name.as_str()).is_none() => {
             let known: Vec<&str> = card.postures.keys().map(smol_str::SmolStr::as_str).collect();
             vec![format!("the robot has no posture `{name}`: {}", meant(name, &known))]
         }
-        Deed::Look | Deed::Detect | Deed::Search if declared.params.is_empty() => {
+        StepAction::Look | StepAction::Detect | StepAction::Search if declared.params.is_empty() => {
             vec![format!("`{primitive}` has no argument that says what to look for")]
         }
-        Deed::Search if lacks("around") => vec![format!("`{primitive}` has no argument `around`")],
-        Deed::Call(call) => {
+        StepAction::Search if lacks("around") => vec![format!("`{primitive}` has no argument `around`")],
+        StepAction::Call(call) => {
             let used = names(&call.message);
             used.iter().filter_map(|text| of_value(text, declared, kinds)).collect()
         }
-        Deed::Motion(_) | Deed::Posture(_) | Deed::Go(_) | Deed::Gripper(_) | Deed::Wait(_) => Vec::new(),
-        Deed::Look | Deed::Detect | Deed::Search | Deed::Require(_) | Deed::Answer { .. } => Vec::new(),
+        StepAction::Motion(_)
+        | StepAction::Posture(_)
+        | StepAction::Go(_)
+        | StepAction::Gripper(_)
+        | StepAction::Wait(_) => Vec::new(),
+        StepAction::Look
+        | StepAction::Detect
+        | StepAction::Search
+        | StepAction::Require(_)
+        | StepAction::Answer { .. } => Vec::new(),
     }
 }
 

@@ -1,14 +1,14 @@
 //! Messages that come from the robot, by what they are for.
 
-use super::{Channel, Heard, Robot};
-use crate::bind::Deed;
+use super::{Channel, Robot, RobotEvent};
+use crate::bind::StepAction;
 use crate::cdr::decode;
 use crate::dds::Received;
 use crate::perceive::{box_detections, detections};
 
 impl Robot {
     /// Takes in a message. `known` says if an id is an entity of the scene.
-    pub(crate) fn hear(&mut self, received: &Received, known: &dyn Fn(&str) -> bool) -> Vec<Heard> {
+    pub(crate) fn hear(&mut self, received: &Received, known: &dyn Fn(&str) -> bool) -> Vec<RobotEvent> {
         let channel = self.channels.get(received.source as usize).cloned();
         let heard = match channel {
             Some(channel) => self.hear_on(&channel, received, known),
@@ -25,20 +25,20 @@ impl Robot {
         channel: &Channel,
         received: &Received,
         known: &dyn Fn(&str) -> bool,
-    ) -> Result<Vec<Heard>, String> {
+    ) -> Result<Vec<RobotEvent>, String> {
         let read = |name: &str| {
             decode(&self.layouts, name, &received.bytes).map_err(|wrong| format!("{name}: {wrong}"))
         };
         match channel {
             Channel::Action(at) => {
                 let news = self.actions[*at].hear(&self.layouts, received)?;
-                return Ok(news.into_iter().map(|news| Heard::Goal(*at, news)).collect());
+                return Ok(news.into_iter().map(|news| RobotEvent::Goal(*at, news)).collect());
             }
             Channel::Service(at) => {
                 let response = self.services[*at].hear(&self.layouts, received)?;
                 return Ok(response
                     .into_iter()
-                    .map(|(ticket, message)| Heard::Response(*at, ticket, message))
+                    .map(|(ticket, message)| RobotEvent::Response(*at, ticket, message))
                     .collect());
             }
             Channel::Joints => {
@@ -60,7 +60,7 @@ impl Robot {
             Channel::Kept(topic) => {
                 let type_name = self.type_of(topic);
                 self.kept.insert(topic.clone(), (received.bytes.clone(), received.at, type_name));
-                return Ok(vec![Heard::Kept]);
+                return Ok(vec![RobotEvent::Kept]);
             }
             Channel::Camera(at, feed) => {
                 self.cameras[*at].hear(*feed, received.bytes.clone(), received.at);
@@ -77,7 +77,7 @@ impl Robot {
                 if let Some(wrong) = wrong {
                     self.tell(&format!("a detection is left out: {wrong}"));
                 }
-                return Ok(vec![Heard::Detected(things)]);
+                return Ok(vec![RobotEvent::Detected(things)]);
             }
         }
         Ok(Vec::new())
@@ -92,7 +92,7 @@ impl Robot {
             let deeds =
                 names.flat_map(|name| self.binding.steps(name).unwrap_or_default()).map(|step| step.deed);
             let mut types = deeds.filter_map(|deed| match deed {
-                Deed::Answer { topic: own, type_name, .. } if own == topic => Some(type_name),
+                StepAction::Answer { topic: own, type_name, .. } if own == topic => Some(type_name),
                 _ => None,
             });
             types.next()

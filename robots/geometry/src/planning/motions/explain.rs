@@ -8,7 +8,7 @@ use motet_stdlib::lang::kinds;
 use nalgebra::Translation3;
 use smol_str::SmolStr;
 
-use super::tight::tight_spot;
+use super::tight_spot::tight_spot;
 use crate::planning::context::QueryContext;
 use crate::planning::placing::{Misfit, PlaceRules};
 use crate::planning::query::{

@@ -1,4 +1,5 @@
-//! Motions: one file for each motion query, as a function over the query context.
+//! Searches for the motion queries, as functions over the query context: one file for each query. Those of
+//! the base and `posture` share `go_to`. `dispatch` calls them, `explain` and `tight_spot` give reasons.
 
 mod dispatch;
 mod explain;
@@ -11,4 +12,4 @@ mod pull;
 mod push;
 mod put;
 mod reach;
-mod tight;
+mod tight_spot;

@@ -33,7 +33,7 @@ pub type Posture = BTreeMap<SmolStr, bool>;
 
 /// A robot in a scene.
 #[derive(Debug)]
-pub struct Stage {
+pub struct Testbed {
     /// Session that checks the plans.
     pub session: Session,
     /// The same without motions.
@@ -53,7 +53,7 @@ pub(crate) struct StageParts {
     pub(crate) grammar: Grammar,
 }
 
-impl Stage {
+impl Testbed {
     /// Puts a robot into a scene. With an effort, motions are looked for.
     ///
     /// # Errors

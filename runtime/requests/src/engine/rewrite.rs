@@ -36,7 +36,7 @@ pub(crate) fn without_courtesy(tokens: &[Token]) -> Vec<Token> {
     tokens
 }
 
-/// A request with its frames said plainly.
+/// A request after all rewrites.
 pub(crate) fn plain(tokens: &[Token]) -> Vec<Token> {
     let mut tokens = tokens.to_vec();
     // What is left out may stand between other words that are.
