@@ -5,5 +5,6 @@
 //! [`exchange`] reads and writes the tagged text. [`actions`] converts a list of actions to a policy, and
 //! back. The reader is tolerant: it reports each interpretation, and the policy is checked like any other.
 
+mod action_list;
 pub mod actions;
 pub mod exchange;
