@@ -3,7 +3,7 @@
 mod lines;
 mod step;
 
-pub(crate) use step::{Call, CallKind, Direction, Opening, Primitive, Step, StepAction};
+pub(crate) use step::{Call, CallKind, Direction, Opening, Primitive, Step, StepKind};
 
 use crate::group::MoveGroup;
 use crate::layout::{Distribution, Layouts};
@@ -377,10 +377,10 @@ impl Binding {
                 let step = step
                     .step()
                     .map_err(|wrong| format!("{name}: step {} of {primitive}: {wrong}", at + 1))?;
-                if matches!(step.deed, StepAction::Gripper(_)) && binding.gripper.is_none() {
+                if matches!(step.kind, StepKind::Gripper(_)) && binding.gripper.is_none() {
                     return Err(format!("{name}: step {} of {primitive} needs a table [gripper]", at + 1));
                 }
-                if step.deed == StepAction::Detect && binding.detections.is_none() {
+                if step.kind == StepKind::Detect && binding.detections.is_none() {
                     return Err(format!("{name}: step {} of {primitive} needs a table [detections]", at + 1));
                 }
             }
@@ -471,7 +471,7 @@ impl Binding {
     /// were.
     #[must_use]
     pub(crate) fn holds(&self, primitive: &str) -> bool {
-        let is_free = |step: &Step| !matches!(&step.deed, StepAction::Call(call) if call.moves);
+        let is_free = |step: &Step| !matches!(&step.kind, StepKind::Call(call) if call.moves);
         self.steps(primitive).is_some_and(|steps| steps.iter().all(is_free))
     }
 

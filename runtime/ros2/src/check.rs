@@ -3,7 +3,7 @@
 mod contract;
 mod live;
 
-use crate::bind::{Binding, CallKind, StepAction};
+use crate::bind::{Binding, CallKind, StepKind};
 use crate::plan::Card;
 use crate::robot::Robot;
 use motet_project::{Discard, Project, open_robot};
@@ -150,7 +150,7 @@ fn check_primitives<'a>(binding: &Binding, known: impl Iterator<Item = &'a str>,
     for primitive in &known {
         match binding.steps(primitive) {
             Some(steps) => {
-                let steps: Vec<String> = steps.iter().map(|step| words(&step.deed)).collect();
+                let steps: Vec<String> = steps.iter().map(|step| words(&step.kind)).collect();
                 report.good(primitive, &steps.join(", "));
             }
             None => report.none(primitive, "not bound: a policy that calls it is refused"),
@@ -161,13 +161,13 @@ fn check_primitives<'a>(binding: &Binding, known: impl Iterator<Item = &'a str>,
     }
 }
 
-fn words(deed: &StepAction) -> String {
-    match deed {
-        StepAction::Motion(direction) => format!("motion {direction:?}").to_lowercase(),
-        StepAction::Posture(name) => format!("posture {name}"),
-        StepAction::Go(place) => format!("go to {place}"),
-        StepAction::Gripper(opening) => format!("gripper {opening:?}").to_lowercase(),
-        StepAction::Call(call) => {
+fn words(kind: &StepKind) -> String {
+    match kind {
+        StepKind::Motion(direction) => format!("motion {direction:?}").to_lowercase(),
+        StepKind::Posture(name) => format!("posture {name}"),
+        StepKind::Go(place) => format!("go to {place}"),
+        StepKind::Gripper(opening) => format!("gripper {opening:?}").to_lowercase(),
+        StepKind::Call(call) => {
             let kind = match call.kind {
                 CallKind::Action => "action",
                 CallKind::Service => "service",
@@ -175,12 +175,12 @@ fn words(deed: &StepAction) -> String {
             };
             format!("{kind} {}", call.name)
         }
-        StepAction::Wait(secs) => format!("wait {secs} s"),
-        StepAction::Require(text) => format!("require {text}"),
-        StepAction::Look => "look".to_owned(),
-        StepAction::Detect => "detect".to_owned(),
-        StepAction::Search => "search".to_owned(),
-        StepAction::Answer { topic, .. } => format!("answer {topic}"),
+        StepKind::Wait(secs) => format!("wait {secs} s"),
+        StepKind::Require(text) => format!("require {text}"),
+        StepKind::Look => "look".to_owned(),
+        StepKind::Detect => "detect".to_owned(),
+        StepKind::Search => "search".to_owned(),
+        StepKind::Answer { topic, .. } => format!("answer {topic}"),
     }
 }
 

@@ -3,7 +3,7 @@
 mod hear;
 
 use crate::action::{ActionClient, GoalEvent, SOURCES};
-use crate::bind::{Binding, Call, CallKind, Observation, StepAction};
+use crate::bind::{Binding, Call, CallKind, Observation, StepKind};
 use crate::cdr::{Message, decode, encode};
 use crate::dds::{Dds, OwnEndpoint, Quality, Received, Source, Writer, dds_topic, dds_type};
 use crate::layout::Layouts;
@@ -195,19 +195,16 @@ impl Robot {
         let binding = self.binding.clone();
         let names = binding.primitives.keys();
         let steps = names.flat_map(|name| binding.steps(name).unwrap_or_default());
-        for deed in steps.map(|step| step.deed) {
-            match deed {
-                StepAction::Call(call) => self.open_call(&call)?,
-                StepAction::Require(text) => self.expression(&text)?,
-                StepAction::Answer { topic, type_name, value, .. } => {
+        for kind in steps.map(|step| step.kind) {
+            match kind {
+                StepKind::Call(call) => self.open_call(&call)?,
+                StepKind::Require(text) => self.expression(&text)?,
+                StepKind::Answer { topic, type_name, value, .. } => {
                     self.keep(&topic, &type_name)?;
                     self.expression(&value)?;
                 }
-                StepAction::Motion(_)
-                | StepAction::Posture(_)
-                | StepAction::Go(_)
-                | StepAction::Gripper(_) => {}
-                StepAction::Wait(_) | StepAction::Look | StepAction::Detect | StepAction::Search => {}
+                StepKind::Motion(_) | StepKind::Posture(_) | StepKind::Go(_) | StepKind::Gripper(_) => {}
+                StepKind::Wait(_) | StepKind::Look | StepKind::Detect | StepKind::Search => {}
             }
         }
         for call in &binding.stop {

@@ -9,7 +9,7 @@ mod stopping;
 pub(crate) use stopping::stand_still;
 
 use crate::action::{End, GoalEvent, Uuid};
-use crate::bind::{Step, StepAction};
+use crate::bind::{Step, StepKind};
 use crate::cdr::Message;
 use crate::joint::Part;
 use crate::observe::Found;
@@ -414,19 +414,19 @@ impl Task {
             return self.begin_move(around, next);
         }
         let Some(step) = self.steps.front().cloned() else { return true };
-        match step.deed {
-            StepAction::Motion(direction) => self.begin_motion(around, direction),
-            StepAction::Posture(_) | StepAction::Go(_) => self.begin_way(around),
-            StepAction::Search => self.begin_search(around),
-            StepAction::Look => self.begin_look(around),
-            StepAction::Gripper(opening) => self.begin_gripper(around, opening),
-            StepAction::Call(call) => self.begin_call(around, &call),
-            StepAction::Wait(secs) => {
+        match step.kind {
+            StepKind::Motion(direction) => self.begin_motion(around, direction),
+            StepKind::Posture(_) | StepKind::Go(_) => self.begin_way(around),
+            StepKind::Search => self.begin_search(around),
+            StepKind::Look => self.begin_look(around),
+            StepKind::Gripper(opening) => self.begin_gripper(around, opening),
+            StepKind::Call(call) => self.begin_call(around, &call),
+            StepKind::Wait(secs) => {
                 let until = Instant::now() + Duration::from_secs_f64(secs.clamp(0.0, 3600.0));
                 self.phase = Phase::Waiting { until };
                 false
             }
-            StepAction::Require(text) => {
+            StepKind::Require(text) => {
                 match around.robot.holds(&text, &self.words()) {
                     Ok(true) => self.step_done(),
                     Ok(false) => self.fail(around, format!("`{text}` is false")),
@@ -434,7 +434,7 @@ impl Task {
                 }
                 true
             }
-            StepAction::Detect => {
+            StepKind::Detect => {
                 let secs = around.robot.binding.detections.as_ref().map_or(0.0, |topic| topic.timeout_secs);
                 let most = if self.finds_all() { FINDS_ALL_SECS } else { 3600.0 };
                 let until = Instant::now() + Duration::from_secs_f64(secs.clamp(0.0, most));
@@ -442,7 +442,7 @@ impl Task {
                 self.phase = Phase::Detecting { until };
                 false
             }
-            StepAction::Answer { topic, value, timeout_secs, .. } => {
+            StepKind::Answer { topic, value, timeout_secs, .. } => {
                 around.robot.forget(&topic);
                 let until = Instant::now() + Duration::from_secs_f64(timeout_secs.clamp(0.0, 3600.0));
                 self.phase = Phase::Answering { topic, value, until };
@@ -463,7 +463,7 @@ impl Task {
                         Box::new(Err("the search for a path has broken off".to_owned().into()))
                     }
                 };
-                let looks = self.steps.front().is_some_and(|step| step.deed == StepAction::Look);
+                let looks = self.steps.front().is_some_and(|step| step.kind == StepKind::Look);
                 match *answer {
                     Ok(witness) => self.take_path(around, &witness),
                     Err(_) if looks => self.step_done(),

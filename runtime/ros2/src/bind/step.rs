@@ -92,19 +92,19 @@ pub(crate) enum CallKind {
 /// Step of a primitive.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Step {
-    pub(crate) deed: StepAction,
+    pub(crate) kind: StepKind,
     /// Failure if the step does not succeed; the first that the primitive declares without one.
     pub(crate) fails: Option<String>,
     pub(crate) text: Option<String>,
 }
 
-/// Effect of a step on the robot.
+/// Kind of a step: its effect on the robot.
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) enum StepAction {
+pub(crate) enum StepKind {
     Motion(Direction),
     /// Move to a posture of the card, along a path from where the robot stands.
     Posture(String),
-    /// Go to an entity, along a path from where the robot stands: a part of [`StepAction::Search`].
+    /// Go to an entity, along a path from where the robot stands: a part of [`StepKind::Search`].
     Go(String),
     Gripper(Opening),
     Call(Call),
@@ -139,43 +139,43 @@ impl StepTable {
     ///
     /// The keys that are missing, or are too many.
     pub(crate) fn step(&self) -> Result<Step, String> {
-        let call = |kind, name: &String| -> Result<StepAction, String> {
+        let call = |kind, name: &String| -> Result<StepKind, String> {
             let type_name = self.type_name.clone().ok_or_else(|| format!("`{name}` needs a `type`"))?;
             let message = self.message.clone().unwrap_or_default();
             let timeout_secs = self.timeout_secs.unwrap_or_else(late);
             // The message of a topic is sent at once: there is nothing to interrupt.
             let moves = kind != CallKind::Topic && self.moves.unwrap_or(true);
-            Ok(StepAction::Call(Call { kind, name: name.clone(), type_name, message, timeout_secs, moves }))
+            Ok(StepKind::Call(Call { kind, name: name.clone(), type_name, message, timeout_secs, moves }))
         };
-        let answer = |topic: &String| -> Result<StepAction, String> {
+        let answer = |topic: &String| -> Result<StepKind, String> {
             let type_name = self.type_name.clone().ok_or_else(|| format!("`{topic}` needs a `type`"))?;
             let value = self.value.clone().ok_or_else(|| format!("`{topic}` needs a `value`"))?;
             let timeout_secs = self.timeout_secs.unwrap_or(60.0);
-            Ok(StepAction::Answer { topic: topic.clone(), type_name, value, timeout_secs })
+            Ok(StepKind::Answer { topic: topic.clone(), type_name, value, timeout_secs })
         };
-        let deeds = [
-            self.motion.map(|direction| Ok(StepAction::Motion(direction))),
-            self.posture.as_ref().map(|name| Ok(StepAction::Posture(name.clone()))),
-            self.gripper.map(|opening| Ok(StepAction::Gripper(opening))),
+        let step_kinds = [
+            self.motion.map(|direction| Ok(StepKind::Motion(direction))),
+            self.posture.as_ref().map(|name| Ok(StepKind::Posture(name.clone()))),
+            self.gripper.map(|opening| Ok(StepKind::Gripper(opening))),
             self.action.as_ref().map(|name| call(CallKind::Action, name)),
             self.service.as_ref().map(|name| call(CallKind::Service, name)),
             self.topic.as_ref().map(|name| call(CallKind::Topic, name)),
-            self.wait_secs.map(|secs| Ok(StepAction::Wait(secs))),
-            self.require.as_ref().map(|text| Ok(StepAction::Require(text.clone()))),
-            self.look.filter(|is_set| *is_set).map(|_| Ok(StepAction::Look)),
-            self.detect.filter(|is_set| *is_set).map(|_| Ok(StepAction::Detect)),
-            self.search.filter(|is_set| *is_set).map(|_| Ok(StepAction::Search)),
+            self.wait_secs.map(|secs| Ok(StepKind::Wait(secs))),
+            self.require.as_ref().map(|text| Ok(StepKind::Require(text.clone()))),
+            self.look.filter(|is_set| *is_set).map(|_| Ok(StepKind::Look)),
+            self.detect.filter(|is_set| *is_set).map(|_| Ok(StepKind::Detect)),
+            self.search.filter(|is_set| *is_set).map(|_| Ok(StepKind::Search)),
             self.answer.as_ref().map(answer),
         ];
-        let mut deeds = deeds.into_iter().flatten();
-        let deed = match (deeds.next(), deeds.next()) {
-            (Some(deed), None) => deed?,
+        let mut step_kinds = step_kinds.into_iter().flatten();
+        let kind = match (step_kinds.next(), step_kinds.next()) {
+            (Some(kind), None) => kind?,
             _ => {
                 return Err("a step has exactly one of motion, posture, gripper, action, service, topic, \
                             wait_secs, require, look, detect, search and answer"
                     .to_owned());
             }
         };
-        Ok(Step { deed, fails: self.fails.clone(), text: self.text.clone() })
+        Ok(Step { kind, fails: self.fails.clone(), text: self.text.clone() })
     }
 }

@@ -1,6 +1,6 @@
 //! Steps of a binding against the declaration of their primitive: failures, names in messages, motions.
 
-use crate::bind::{Binding, Step, StepAction};
+use crate::bind::{Binding, Step, StepKind};
 use crate::template::{ValueName, names};
 use motet_robots::card::Robot;
 use motet_syntax::ast::{Clause, Param, PrimitiveDecl, TypeExpr};
@@ -25,7 +25,8 @@ pub(super) fn findings(
         None => format!("step {}", at + 1),
     };
     let of_step = |(at, step): (usize, &Step)| -> Vec<String> {
-        let found = of_failure(step, declared).into_iter().chain(of_deed(&step.deed, declared, card, kinds));
+        let found =
+            of_failure(step, declared).into_iter().chain(of_step_kind(&step.kind, declared, card, kinds));
         found.map(|text| format!("{}: {text}", place(at))).collect()
     };
     steps.iter().enumerate().flat_map(of_step).collect()
@@ -62,34 +63,34 @@ fn of_failure(step: &Step, declared: &PrimitiveDecl) -> Option<String> {
     })
 }
 
-fn of_deed(deed: &StepAction, declared: &PrimitiveDecl, card: &Robot, kinds: &[&str]) -> Vec<String> {
+fn of_step_kind(kind: &StepKind, declared: &PrimitiveDecl, card: &Robot, kinds: &[&str]) -> Vec<String> {
     let primitive = &declared.name.text;
     let has_motion = declared.clauses.iter().any(|clause| matches!(clause, Clause::Motion(_)));
     let lacks = |param: &str| declared.params.iter().all(|own| own.name.text != param);
-    match deed {
-        StepAction::Motion(_) if !has_motion => vec![format!("`{primitive}` declares no motion")],
-        StepAction::Posture(name) if card.postures.get(name.as_str()).is_none() => {
+    match kind {
+        StepKind::Motion(_) if !has_motion => vec![format!("`{primitive}` declares no motion")],
+        StepKind::Posture(name) if card.postures.get(name.as_str()).is_none() => {
             let known: Vec<&str> = card.postures.keys().map(smol_str::SmolStr::as_str).collect();
             vec![format!("the robot has no posture `{name}`: {}", meant(name, &known))]
         }
-        StepAction::Look | StepAction::Detect | StepAction::Search if declared.params.is_empty() => {
+        StepKind::Look | StepKind::Detect | StepKind::Search if declared.params.is_empty() => {
             vec![format!("`{primitive}` has no argument that says what to look for")]
         }
-        StepAction::Search if lacks("around") => vec![format!("`{primitive}` has no argument `around`")],
-        StepAction::Call(call) => {
+        StepKind::Search if lacks("around") => vec![format!("`{primitive}` has no argument `around`")],
+        StepKind::Call(call) => {
             let used = names(&call.message);
             used.iter().filter_map(|text| of_value(text, declared, kinds)).collect()
         }
-        StepAction::Motion(_)
-        | StepAction::Posture(_)
-        | StepAction::Go(_)
-        | StepAction::Gripper(_)
-        | StepAction::Wait(_) => Vec::new(),
-        StepAction::Look
-        | StepAction::Detect
-        | StepAction::Search
-        | StepAction::Require(_)
-        | StepAction::Answer { .. } => Vec::new(),
+        StepKind::Motion(_)
+        | StepKind::Posture(_)
+        | StepKind::Go(_)
+        | StepKind::Gripper(_)
+        | StepKind::Wait(_) => Vec::new(),
+        StepKind::Look
+        | StepKind::Detect
+        | StepKind::Search
+        | StepKind::Require(_)
+        | StepKind::Answer { .. } => Vec::new(),
     }
 }
 

@@ -1,7 +1,7 @@
 //! Messages that come from the robot, by what they are for.
 
 use super::{Channel, Robot, RobotEvent};
-use crate::bind::StepAction;
+use crate::bind::StepKind;
 use crate::cdr::decode;
 use crate::dds::Received;
 use crate::perceive::{box_detections, detections};
@@ -89,10 +89,10 @@ impl Robot {
         let observed = observations.filter(|one| one.topic == topic).map(|one| one.type_name.clone()).next();
         let answers = || {
             let names = self.binding.primitives.keys();
-            let deeds =
-                names.flat_map(|name| self.binding.steps(name).unwrap_or_default()).map(|step| step.deed);
-            let mut types = deeds.filter_map(|deed| match deed {
-                StepAction::Answer { topic: own, type_name, .. } if own == topic => Some(type_name),
+            let step_kinds =
+                names.flat_map(|name| self.binding.steps(name).unwrap_or_default()).map(|step| step.kind);
+            let mut types = step_kinds.filter_map(|kind| match kind {
+                StepKind::Answer { topic: own, type_name, .. } if own == topic => Some(type_name),
                 _ => None,
             });
             types.next()

@@ -1,7 +1,7 @@
 //! Motions of a task: paths from the command or of the driver's own, as trajectories and navigations.
 
 use super::{Move, Phase, Running, Surroundings, Task, unheard};
-use crate::bind::{Binding, Controller, Direction, Opening, StepAction};
+use crate::bind::{Binding, Controller, Direction, Opening, StepKind};
 use crate::joint::{Axis, Part, Trajectory};
 use crate::plan::{self, Question};
 use crate::robot::Robot;
@@ -60,8 +60,7 @@ impl Task {
     /// Looks for another path where the robot is not where a move begins, such as behind a navigation that
     /// ends near its goal. A way back has none.
     pub(super) fn plan_anew(&mut self, around: &mut Surroundings<'_>, away: String) {
-        let is_there =
-            self.steps.front().is_some_and(|step| step.deed == StepAction::Motion(Direction::There));
+        let is_there = self.steps.front().is_some_and(|step| step.kind == StepKind::Motion(Direction::There));
         let own = self.command.motions.first().filter(|_| is_there).map(|motion| plan::motion(motion));
         let is_free = self.detours < MAX_DETOURS && !self.has_gripped;
         let Some(motion) = self.way().or(own).filter(|_| is_free) else {

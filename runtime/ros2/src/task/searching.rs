@@ -1,7 +1,7 @@
 //! Steps that look for things: detections, searches from place to place, and answers that name things.
 
 use super::{Ending, Phase, Surroundings, Task};
-use crate::bind::{Direction, Step, StepAction};
+use crate::bind::{Direction, Step, StepKind};
 use crate::observe::Found;
 use crate::plan::written;
 use motet_graph::Value as Argument;
@@ -138,7 +138,7 @@ impl Task {
             return true;
         }
         if let Some(step) = self.steps.front_mut() {
-            step.deed = StepAction::Detect;
+            step.kind = StepKind::Detect;
         }
         self.look_elsewhere();
         true
@@ -154,19 +154,19 @@ impl Task {
             motion.query == "go_to" && motion.args == [entity(&place)]
         };
         let way = match self.command.motions.first() {
-            Some(motion) if leads(motion) => StepAction::Motion(Direction::There),
-            _ => StepAction::Go(place.clone()),
+            Some(motion) if leads(motion) => StepKind::Motion(Direction::There),
+            _ => StepKind::Go(place.clone()),
         };
-        self.steps.push_front(Step { deed: StepAction::Look, ..step.clone() });
-        self.steps.push_front(Step { deed: way, ..step });
+        self.steps.push_front(Step { kind: StepKind::Look, ..step.clone() });
+        self.steps.push_front(Step { kind: way, ..step });
         (self.place, self.phase) = (Some(place), Phase::Next);
     }
 
     /// Motion of a step that is not that of the command, as the language writes it.
     pub(super) fn way(&self) -> Option<String> {
-        match &self.steps.front()?.deed {
-            StepAction::Posture(name) => Some(format!("posture({name})")),
-            StepAction::Go(place) => Some(format!("go_to({})", written(&entity(place)))),
+        match &self.steps.front()?.kind {
+            StepKind::Posture(name) => Some(format!("posture({name})")),
+            StepKind::Go(place) => Some(format!("go_to({})", written(&entity(place)))),
             _ => None,
         }
     }
