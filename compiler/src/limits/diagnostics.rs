@@ -87,7 +87,12 @@ motet_syntax::mistakes! {
     /// Block without steps.
     EmptyBlock("M0802", Error) { what: &'static str }
     message(m) { format!("this {} has no steps", m.what) }
-    help(_m) { Some("add a step, or remove it".to_owned()) }
+    help(m) {
+        Some(match m.what {
+            "policy" => "add a step; `done` alone where nothing is to be done".to_owned(),
+            _ => "add a step, or remove it".to_owned(),
+        })
+    }
 
     /// Ending inside a cleanup.
     EndsCleanup("M0805", Error) { ending: &'static str }

@@ -24,6 +24,9 @@ pub(super) fn fill_in(
             step.bounds = bounds;
         }
     }
+    if program.body.is_empty() {
+        diagnostics.push(EmptyBlock { span: program.span, what: "policy" }.into());
+    }
     let (_, greatest) = of_block(&program.body, program);
     if let Some(limit) = limit.filter(|limit| greatest > *limit) {
         let (longest, limit) = (seconds(greatest), seconds(limit));
@@ -160,6 +163,7 @@ fn empty(kind: &StepKind, span: motet_syntax::Span, diagnostics: &mut Vec<Diagno
             ("`monitor`", body)
         }
         StepKind::Try { body, .. } => ("`try`", body),
+        StepKind::Finally { body, .. } if body.is_empty() => ("block before a `finally`", body),
         StepKind::Finally { cleanup, .. } => ("`finally`", cleanup),
         StepKind::Parallel { branches } => {
             let what = if branches.is_empty() { "`parallel`" } else { "branch of a `parallel`" };

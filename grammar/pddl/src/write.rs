@@ -7,9 +7,9 @@ use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
 use motet_syntax::ast::{
-    Arg as AstArg, Block, Call, Clause, CompareOp, Do, EntitiesDecl, Expr, ExprKind, File, FluentDecl,
-    InitiallyDecl, Item, KindDecl, Name, Param, Policy, PrimitiveDecl, PrimitiveKind, Quantified, Step,
-    StepKind, TypeExpr,
+    Arg as AstArg, Block, Call, Clause, CompareOp, Do, End, EndKind, EntitiesDecl, Expr, ExprKind, File,
+    FluentDecl, InitiallyDecl, Item, KindDecl, Name, Param, Policy, PrimitiveDecl, PrimitiveKind, Quantified,
+    Step, StepKind, TypeExpr,
 };
 use motet_syntax::words::is_json_key;
 use motet_syntax::{FileId, Source, Span};
@@ -130,6 +130,11 @@ fn policy(problem: &Problem, plan: Vec<PlanStep>) -> Policy {
             span: step.span,
         }
     });
+    let mut steps: Vec<Step> = steps.collect();
+    if steps.is_empty() {
+        let done = End { kind: EndKind::Done, result: None, why: None, span };
+        steps.push(Step { kind: StepKind::End(done), span });
+    }
     Policy {
         doc: format_smolstr!("A plan for the PDDL problem `{}`.", problem.name),
         name: Name { text: "plan".into(), span },
@@ -137,7 +142,7 @@ fn policy(problem: &Problem, plan: Vec<PlanStep>) -> Policy {
         result: None,
         robot: None,
         achieves: conjunction(problem.goal.iter().map(|part| literal(part, &[])).collect()),
-        body: Block::new(steps.collect(), span),
+        body: Block::new(steps, span),
         keeps: Vec::new(),
         cleanup: None,
         span,

@@ -107,6 +107,7 @@ pub(super) fn policy(
         text.push_str(&format!(" achieves {}", kept.join(" and ")));
     }
     text.push_str(" {\n");
+    let head = text.len();
     let is_grouped = aims.len() > 1 || aims.iter().any(|aim| aim.only_if.is_some());
     for index in 0..=aims.len() {
         let aim = aims.get(index);
@@ -137,7 +138,8 @@ pub(super) fn policy(
         text.push_str(if only_if.is_some() { "}\n" } else { "" });
         text.push_str(if is_grouped { "}\n" } else { "" });
     }
-    text.push_str("}\n");
+    // All of it holds already.
+    text.push_str(if text.len() == head { "done\n}\n" } else { "}\n" });
     text
 }
 

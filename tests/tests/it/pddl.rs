@@ -111,6 +111,12 @@ fn import_names_unsupported_parts() {
 }
 
 #[test]
+fn import_of_a_plan_without_steps_is_done() {
+    let imported = run(DOMAIN, PROBLEM, Some("; nothing")).0.unwrap();
+    assert!(imported.policy_text().contains("{\n    done\n}"), "{}", imported.policy_text());
+}
+
+#[test]
 fn import_limits_nesting() {
     let deep = "(".repeat(100_000);
     assert_eq!(run(&deep, PROBLEM, None).1.first().unwrap().code.0, "M0111");

@@ -55,6 +55,13 @@ fn planner_goals_are_reached() {
 }
 
 #[test]
+fn planner_goal_that_holds_already_is_a_policy_that_is_done() {
+    reaches("kitchen", &["at(robot, start)"], &[("at", &["robot", "start"])]);
+    let planned = plan("hsr", "kitchen", &["at(robot, start)"]).unwrap();
+    assert!(planned.text.contains("{\n    done\n}"), "{}", planned.text);
+}
+
+#[test]
 fn planner_thing_whose_name_others_have_too_is_looked_for_by_another() {
     reaches("living_room", &["in(toy, drawer_1)"], &[("in", &["toy", "drawer_1"])]);
     let planned = plan("anymal_z1", "living_room", &["in(toy, drawer_1)"]).unwrap();

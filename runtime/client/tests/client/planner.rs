@@ -68,7 +68,7 @@ fn model_planner_reply_that_is_wrong_goes_back_whole_with_the_reason() {
 
 #[test]
 fn model_planner_policy_that_does_something_else_goes_back_once_and_then_to_the_person() {
-    let nothing = r#"{"motet":1,"policy":"idle","robot":"hsr","steps":[]}"#.to_owned();
+    let nothing = r#"{"motet":1,"policy":"idle","robot":"hsr","steps":[{"end":"done"}]}"#.to_owned();
     let apple = right(&setting(), "bring me the green apple");
     for wrong in [nothing, apple] {
         let (outcome, heard, _) = play(vec![Act::says(wrong.clone()), Act::says(right(&setting(), COKE))]);
