@@ -413,11 +413,11 @@ impl Declarations {
                 }
                 Item::Enum(decl) => put(&mut self.enums, "enumeration", &decl.name, decl, layer, diagnostics),
                 Item::Primitive(decl) => {
-                    self.policies.shift_remove(&decl.name.text);
+                    displace(&mut self.policies, &decl.name, layer, diagnostics);
                     put(&mut self.primitives, "primitive", &decl.name, decl, layer, diagnostics);
                 }
                 Item::Policy(decl) => {
-                    self.primitives.shift_remove(&decl.name.text);
+                    displace(&mut self.primitives, &decl.name, layer, diagnostics);
                     put(&mut self.policies, "policy", &decl.name, decl, layer, diagnostics);
                 }
                 Item::Entities(decl) => self.entities.push(Arc::new(decl.clone())),
@@ -459,6 +459,15 @@ macro_rules! placed {
 }
 
 placed!(KindDecl, FluentDecl, MeasureDecl, FailureDecl, EnumDecl, PrimitiveDecl, Policy);
+
+/// Removes a declaration of another sort that is called by the same name. In one layer there are not two.
+fn displace<T: Placed>(table: &mut Table<T>, name: &Name, layer: usize, diagnostics: &mut Vec<Diagnostic>) {
+    let first = table.shift_remove(&name.text).filter(|first| first.layer == layer);
+    if let Some(first) = first.filter(|_| diagnostics.len() <= MAX_MISTAKES) {
+        let (what, first) = ("callable", first.item.name_span());
+        diagnostics.push(Duplicate { span: name.span, name: name.text.clone(), what, first }.into());
+    }
+}
 
 fn put<T: Clone + Placed>(
     table: &mut Table<T>,

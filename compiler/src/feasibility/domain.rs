@@ -331,7 +331,11 @@ impl<'a> Domain<'a> for MotionChecker<'a> {
         self.is_live()
     }
 
-    fn await_at(&mut self, _id: StepId, _condition: &Condition) {}
+    fn await_at(&mut self, _id: StepId, condition: &Condition) {
+        if self.worlds.known.iter().any(|it| self.truth(condition, &it.at) == Some(false)) {
+            self.worlds = Worlds::lost(SmolStr::new_static("what was waited for has changed the world"));
+        }
+    }
 
     fn lose(&mut self, _id: StepId) {
         self.worlds = Worlds::lost(SmolStr::new_static("an earlier step has an error"));

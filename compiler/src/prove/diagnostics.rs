@@ -83,8 +83,8 @@ motet_syntax::mistakes! {
     }
 
     /// Monitor whose condition is always false.
-    NeverFires("M0803", Warning) { }
-    message(_m) { "this condition is always false: the monitor can never fire".to_owned() }
+    NeverFires("M0803", Warning) { what: &'static str }
+    message(m) { format!("this condition is always false: {}", m.what) }
     help(_m) { Some("remove it, or watch a condition that can change".to_owned()) }
 
     /// Loops, monitors and parallel branches that are nested deeper than a limit; without one, so many nested

@@ -8,8 +8,9 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::assume::Outcome;
 use super::collector::Collector;
-use super::diagnostics::{Conflict, NeverCaught, TooDeep, Unreached};
+use super::diagnostics::{Conflict, NeverCaught, NeverFires, TooDeep, Unreached};
 use super::evaluation::CallFrame;
+use super::monitor::constant;
 use super::{MAX_FIXPOINTS, PolicyEnd, Prover, Volatile};
 use crate::analysis::{Domain, Enclosing, Exit, Loop, Round};
 use crate::declare::Library;
@@ -140,7 +141,13 @@ impl<'a> Domain<'a> for Prover<'a> {
         if !truth && self.evaluate(condition, CallFrame::default()).open.is_some() {
             self.proof.unknown_tests.insert(id);
         }
-        self.assume(condition, outcome, Cause::step(id), CallFrame::default())
+        let is_possible = self.assume(condition, outcome, Cause::step(id), CallFrame::default());
+        let step = self.program.step(id).filter(|_| truth && !is_possible && constant(condition));
+        if let Some(StepKind::Repeat { until: Some((_, span)), .. }) = step.map(|step| &step.kind) {
+            let what = "the loop always runs out of rounds";
+            self.tell_once(NeverFires { span: *span, what }.into());
+        }
+        is_possible
     }
 
     fn fail_wait(&mut self, id: StepId, condition: &Condition) {
@@ -152,6 +159,16 @@ impl<'a> Domain<'a> for Prover<'a> {
     }
 
     fn await_at(&mut self, id: StepId, condition: &Condition) {
+        let never = constant(condition) && self.evaluate(condition, CallFrame::default()).is_false();
+        if let Some(step) = self.program.step(id).filter(|_| never) {
+            self.tell_once(NeverFires { span: step.span, what: "the `wait` can only time out" }.into());
+            self.control.live = false;
+            return;
+        }
+        if self.evaluate(condition, CallFrame::default()).no.as_step().is_some() {
+            // What is then seen, the world has brought about: it has undone what steps made.
+            self.undo(condition, Cause::step(id));
+        }
         self.await_condition(condition, true, Cause::step(id));
     }
 

@@ -452,7 +452,7 @@ impl<'a> Prover<'a> {
     }
 
     /// Makes unknown what the steps have made that decide a condition.
-    fn undo(&mut self, condition: &Condition, cause: Cause) {
+    pub(super) fn undo(&mut self, condition: &Condition, cause: Cause) {
         let (mut makers, mut rest) = (Vec::new(), vec![condition]);
         while let Some(part) = rest.pop() {
             rest.extend(part.parts());
@@ -479,7 +479,7 @@ impl<'a> Prover<'a> {
         if self.control.live {
             self.react(when);
         } else {
-            self.diagnostics.push(NeverFires { span: when.span }.into());
+            self.diagnostics.push(NeverFires { span: when.span, what: "the monitor can never fire" }.into());
         }
         self.restore(&mark);
         self.state.partitions = partitions;
@@ -507,7 +507,7 @@ pub(super) struct LastingWhen<'a> {
 }
 
 /// Returns whether a condition is constant.
-fn constant(condition: &Condition) -> bool {
+pub(super) fn constant(condition: &Condition) -> bool {
     let is_open = |part: &Condition| {
         matches!(
             part,

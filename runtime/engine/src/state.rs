@@ -192,6 +192,9 @@ pub(crate) struct Run {
     pub(crate) clearing: Vec<NodeId>,
     /// True if a step found another thing than the proofs assume: what they proved is checked from then on.
     pub(crate) is_unproven: bool,
+    /// True once a `wait` began whose condition was believed to be false. It lets the world undo what steps
+    /// made, so a guard asks before it refuses.
+    pub(crate) looks_afresh: bool,
     /// Motions of calls that are about to start.
     pub(crate) checks: Vec<MotionCheck>,
     /// Number of checks so far.
@@ -285,6 +288,7 @@ impl Run {
             halted: false,
             is_held_by_person: false,
             is_unproven: false,
+            looks_afresh: false,
             left: Vec::new(),
             uncleaned: Vec::new(),
             reached: None,

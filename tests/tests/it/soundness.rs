@@ -260,6 +260,30 @@ fn soundness_a_dropped_thing_can_be_picked_again() {
     assert!(!found.contains(&"M0501") && !found.contains(&"M0902"), "{found:?}");
 }
 
+/// What a step made may be undone by the time that a `wait` ends: the policy can do it again, and what else
+/// the step made is asked again.
+#[test]
+fn soundness_what_was_waited_for_may_have_undone_a_step() {
+    let recovers = "policy p { go(mug_1) pick(mug_1) go(counter) wait until not holding(mug_1) within 9 s \
+                    go(mug_1) pick(mug_1) go(user) handover(mug_1, user) }";
+    let found = session_codes(Some("kitchen"), recovers);
+    assert!(!found.contains(&"M0501") && !found.contains(&"M0902"), "{found:?}");
+    let take = "action take(o: Object)\n    needs not f(o), not g(o)\n    makes f(o), g(o)\n";
+    let again = |between: &str| {
+        format!("{take}initially not f(a), not g(a)\npolicy p {{ take(a) {between} take(a) }}")
+    };
+    let waits = again("wait until not f(a) within 5 s");
+    assert_eq!(verdicts("take", &waits), [Verdict::Proven, Verdict::Deferred]);
+    let found = requests(&waits, &mut |effect| honest(effect, |_| Some(false)));
+    assert_eq!(found.iter().filter(|request| request.starts_with("start")).count(), 2, "{found:?}");
+    // A need that still does not hold refuses the step.
+    let found = requests(&waits, &mut |effect| honest(effect, |query| Some(query.to_string() == "g(a)")));
+    assert_eq!(found.iter().filter(|request| request.starts_with("start")).count(), 1, "{found:?}");
+    // Without a wait nothing says that the world has undone it.
+    let at_once = session_codes(None, &format!("{DOMAIN}\n{}", again("pass()")));
+    assert!(at_once.contains(&"M0501"), "{at_once:?}");
+}
+
 /// Domain of needs and effects that are about each object.
 const EACH: &str = "
 entity b: Object

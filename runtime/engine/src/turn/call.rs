@@ -168,9 +168,10 @@ impl Turn<'_> {
                 continue;
             }
             let mut truth = self.need(need, fresh);
-            if truth == Truth::False && (attempt > 1 || plan.is_in_reaction(node)) {
-                // A retry looks afresh: what refused it before may have changed. A reaction does so too: the
-                // world may have undone what a step made.
+            let looks_afresh = attempt > 1 || self.run.looks_afresh || plan.is_in_reaction(node);
+            if truth == Truth::False && looks_afresh {
+                // A retry looks afresh: what refused it before may have changed. A reaction does so too, and
+                // what comes behind a wait: the world may have undone what a step made.
                 truth = self.need(need, Freshness::Facts(since, seen));
             }
             let refusal = StartRefusal::Need(index as u32, need.failure, truth);

@@ -348,6 +348,7 @@ impl Turn<'_> {
         state.phase = Phase::Waiting;
         state.since = now;
         let key = self.plan.node_key(node);
+        self.run.looks_afresh |= self.judge(Freshness::Readings(now)).condition(condition) == Truth::False;
         self.subscribe(key, condition, now);
         self.run.timers.set(key, now.after(Time::from_secs(within_secs)));
         self.wait_again(node);
