@@ -1,146 +1,95 @@
-//! Faults of behaviour trees that their engines run without a word: each is refused by the check, or left to
-//! a guard that asks before the step.
+//! Faults of behaviour trees, most of which their engines run without a word: each variant in the table is
+//! refused or told by the check, or left to a guard that asks before the step.
 
-use motet_graph::Verdict;
+use std::fmt::Write as _;
 
-use crate::soundness::{DOMAIN, session_codes, verdicts};
+use motet_graph::{NodeKind, Verdict};
+use motet_syntax::{FileId, Severity, Source, Sources};
+use motet_tests::setup;
 
-/// Codes of the findings on a policy over the domain of the soundness tests, with more declarations.
-fn codes(more: &str, policy: &str) -> Vec<&'static str> {
-    session_codes(None, &format!("{DOMAIN}\n{more}\n{policy}"))
-}
+use crate::soundness::DOMAIN;
 
-#[track_caller]
-fn refused(code: &str, more: &str, policies: &[&str]) {
-    for policy in policies {
-        let found = codes(more, policy);
-        assert!(found.contains(&code), "{policy}: {found:?}");
-    }
-}
-
-#[track_caller]
-fn left_to_a_guard(callee: &str, policies: &[&str]) {
-    for policy in policies {
-        let found = verdicts(callee, policy);
-        assert!(found.contains(&Verdict::Deferred), "{policy}: {found:?}");
-    }
-}
-
-#[test]
-fn fault_control_node_without_children() {
-    refused(
-        "M0802",
-        "",
-        &[
-            "policy p { if f(a) { } }",
-            "policy p { if f(a) { } else { pass() } }",
-            "policy p { sequence group { } }",
-            "policy p { try { } catch any { pass() } }",
-            "policy p { repeat 2 { } }",
-            "policy p { each x in [a] at most 1 { } }",
-            "policy p { parallel { { pass() } { } } }",
-            "policy p { within 5 s { } }",
-            "policy p { monitor when f(a) then pause during { } }",
-            "policy p { monitor when f(a) then resume at most 1 { } during { pass() } }",
-            "policy p { pass() } finally { }",
-            "policy p { sequence s { pass() } finally { } }",
-        ],
-    );
-    let clean = [
-        "policy p { try { use(a) } catch any { } }",
-        "policy p { if f(a) { pass() } else { } }",
-        "policy p { }",
-    ];
-    for policy in clean {
-        assert!(!codes("", policy).contains(&"M0802"), "{policy}");
-    }
-}
-
-#[test]
-fn fault_control_node_without_children_in_json() {
-    let policy = |step: &str| format!("{{\"motet\":1,\"policy\":\"p\",\"steps\":[{step}]}}");
-    let said = |step: &str| {
-        let source = motet_syntax::Source::new("p.json", policy(step));
-        let (session, _) = motet_tests::setup::session(None, None, &mut motet_syntax::Sources::default());
-        let found = session.check(&motet_syntax::read(&source, motet_syntax::FileId(99)));
-        found.iter().map(|found| found.code.0).collect::<Vec<_>>()
-    };
-    for step in [
-        r#"{"if":{"is":"free","hand":"any"},"then":[]}"#,
-        r#"{"sequence":"group","steps":[]}"#,
-        r#"{"try":[],"catch":[{"on":"any","steps":[]}]}"#,
-        r#"{"repeat":2,"steps":[]}"#,
-        r#"{"parallel":[[{"do":"say","text":"x"}],[]]}"#,
-        r#"{"within":5,"steps":[]}"#,
-    ] {
-        assert!(said(step).contains(&"M0802"), "{step}: {:?}", said(step));
-    }
-}
-
-#[test]
-fn fault_monitor_that_its_own_body_sets_off() {
-    refused(
-        "M0506",
-        "",
-        &[
-            "policy p { monitor when f(a) then fail \"no\" during { make(a) } }",
-            "policy p { monitor when f(a) then restart at most 1 during { make(a) pass() } }",
-            "policy p { monitor when f(a) then resume at most 1 { wave() } \
-             during { repeat 2 { make(a) pass() } } }",
-            "policy p { monitor when f(a) then pause during { parallel { { make(a) pass() } { wave() } } } }",
-            "policy p { monitor when not f(a) then pause during { sequence s { undo(a) wave() } } }",
-        ],
-    );
-}
-
-#[test]
-fn fault_fact_that_another_branch_undoes() {
-    left_to_a_guard(
-        "use",
-        &[
-            "policy p { make(a) parallel { { pass() use(a) } { undo(a) } } }",
-            "policy p { parallel { { if f(a) { pass() use(a) } } { shake(a) } } }",
-            "policy p { parallel { { make(a) use(a) } { try { undo(a) } catch any { } } } }",
-        ],
-    );
-}
-
-#[test]
-fn fault_condition_that_stays_unknown() {
-    left_to_a_guard(
-        "avoid",
-        &[
-            "policy p { if f(a) { pass() } else { avoid(a) } }",
-            "policy p { if f(a) and g(a) { pass() } else { avoid(a) } }",
-            "policy p { try { repeat 2 { pass() } until f(a) } catch exhausted { avoid(a) } }",
-        ],
-    );
-    left_to_a_guard("use", &["policy p { try { wait until f(a) within 1 s } catch timeout { } use(a) }"]);
-}
-
-#[test]
-fn fault_restart_with_half_done_effects() {
-    let domain = "
+const TABLE: &str = include_str!("../../fault_classes.tsv");
+/// Number of classes that the documents name.
+const CLASSES: usize = 59;
+/// Declarations beside those of the soundness tests.
+const MORE: &str = "
 action turn_over(o: Object)
     needs f(o)
     makes not f(o), g(o)
     fails slipped
     uses base
 ";
-    // The body begins again where the first round has left it.
-    for policy in [
-        "initially f(a)\npolicy p { monitor when g(a) then restart at most 1 \
-         during { use(a) turn_over(a) wave() } }",
-        "initially f(a), not g(a)\npolicy p { monitor when holding(any) then restart at most 1 \
-         during { turn_over(a) wave() } }",
-        "initially f(a)\npolicy p { turn_over(a) retry 1 }",
-        "initially f(a)\npolicy p { repeat 2 { turn_over(a) } }",
-        "initially f(a)\npolicy p { try { turn_over(a) } catch slipped { turn_over(a) } }",
-    ] {
-        let policy = format!("{domain}{policy}");
-        let is_refused = session_codes(None, &format!("{DOMAIN}{policy}"))
-            .iter()
-            .any(|code| *code == "M0501" || *code == "M0506");
-        assert!(is_refused || verdicts("turn_over", &policy).contains(&Verdict::Deferred), "{policy}");
+
+/// Result of checking and compiling a document.
+struct Told {
+    codes: Vec<(&'static str, Severity)>,
+    /// Primitives of which a call keeps a guard.
+    guarded: Vec<String>,
+}
+
+fn told(document: &str) -> Told {
+    let deep = format!("{}pass(){}", "if f(a) { ".repeat(200), " }".repeat(200));
+    let text = document.replace("\\n", "\n").replace("DEEP", &deep);
+    let is_json = text.starts_with('{');
+    let text = if is_json || text.is_empty() { text } else { format!("{DOMAIN}{MORE}{text}") };
+    let source = Source::new(if is_json { "p.json" } else { "p.motet" }, text);
+    let (session, _) = setup::session(None, None, &mut Sources::default());
+    let parsed = motet_syntax::read(&source, FileId(99));
+    let compiled = session.compile(&parsed, None);
+    let checked = session.check(&parsed);
+    let found = checked.iter().chain(&compiled.diagnostics);
+    let codes = found.map(|found| (found.code.0, found.severity)).collect();
+    let mut guarded = Vec::new();
+    for graph in compiled.graph {
+        for node in &graph.nodes {
+            if let NodeKind::Call(call) = &node.kind
+                && call.needs.iter().any(|need| need.verdict == Verdict::Deferred)
+            {
+                guarded.push(graph.primitives[call.primitive.index()].name.to_string());
+            }
+        }
     }
+    Told { codes, guarded }
+}
+
+impl Told {
+    fn is(&self, expected: &str) -> bool {
+        let is_wrong = self.codes.iter().any(|(_, severity)| *severity == Severity::Error);
+        let has = |wanted: &str, is_error: bool| {
+            self.codes
+                .iter()
+                .any(|(code, severity)| *code == wanted && (*severity == Severity::Error) == is_error)
+        };
+        match expected.split_once(' ') {
+            None if expected == "clean" => self.codes.is_empty(),
+            None => has(expected, true),
+            Some(("tells", code)) => has(code, false),
+            Some(("guards", callee)) => !is_wrong && self.guarded.iter().any(|known| known == callee),
+            Some(_) => panic!("`{expected}` says nothing of what is told"),
+        }
+    }
+}
+
+#[test]
+fn fault_classes_are_told_in_each_variant() {
+    let (mut wrong, mut classes) = (String::new(), Vec::new());
+    for line in TABLE.lines().filter(|line| !line.is_empty() && !line.starts_with('#')) {
+        let Some((expected, document)) = line.split_once('\t') else {
+            let (number, _) = line.split_once(' ').unwrap();
+            assert_eq!(number.parse(), Ok(classes.len() + 1), "{line}");
+            classes.push((line, 0));
+            continue;
+        };
+        let (class, variants) = classes.last_mut().unwrap();
+        *variants += usize::from(expected != "clean");
+        let told = told(document);
+        if !told.is(expected) {
+            let (codes, guarded) = (told.codes, told.guarded);
+            let _ = writeln!(wrong, "{class}: {document}\n  not {expected}: {codes:?}, guards: {guarded:?}");
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong}");
+    assert_eq!(classes.len(), CLASSES);
+    assert!(classes.iter().all(|(_, variants)| *variants > 0), "{classes:?}");
 }
