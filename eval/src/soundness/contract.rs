@@ -97,6 +97,8 @@ pub(super) struct Action {
     pub(super) uses: Option<&'static str>,
     /// True for a perception that finds an object.
     pub(super) finds: bool,
+    /// True for a perception that finds a list of objects instead.
+    pub(super) finds_all: bool,
 }
 
 /// Entities, fluents, actions and a start.
@@ -110,6 +112,8 @@ pub(super) struct Domain {
     pub(super) names: Vec<String>,
     /// Kinds of the parameters of each fluent.
     pub(super) fluents: Vec<Vec<Kind>>,
+    /// Fluent that stands for the measure `distance`: it holds where the reading is less than a metre.
+    pub(super) measure: Option<usize>,
     pub(super) actions: Vec<Action>,
     pub(super) start: Vec<(Atom, bool)>,
     /// True if everything else is false at the start.

@@ -5,7 +5,7 @@ use rand::RngExt as _;
 use rand_xoshiro::SplitMix64;
 
 use super::contract::{Action, Arg, Atom, Change, Condition, Domain, Kind, Need};
-use super::policy::{Policy, Reaction, Step};
+use super::policy::{Among, ENDS, Policy, Reaction, Step, Watch};
 
 /// Failures that actions declare.
 pub(super) const FAILURES: [&str; 2] = ["slipped", "blocked"];
@@ -39,13 +39,21 @@ pub(super) fn domain(dice: &mut SplitMix64) -> Domain {
     domain.fluents = vec![vec![], vec![Kind::Object], vec![Kind::Object], vec![Kind::Entity]];
     domain.fluents.push(vec![Kind::Object, if chance(dice, 50) { Kind::Object } else { Kind::Entity }]);
     domain.names = (0..domain.fluents.len()).map(|index| format!("f{index}")).collect();
+    if chance(dice, 50) {
+        domain.measure = Some(domain.fluents.len());
+        domain.fluents.push(vec![Kind::Entity]);
+        domain.names.push("distance".to_owned());
+    }
     for index in 0..4 + dice.random_range(0..3) {
-        let finds = index == 0 || chance(dice, 15);
+        let finds = index == 0 || chance(dice, 20);
         let action = Action { name: format!("a{index}"), ..action(dice, &domain, finds) };
         domain.actions.push(action);
     }
     let known = [100, 60, 25].get(dice.random_range(0..3)).copied().unwrap_or(60);
     for (fluent, params) in domain.fluents.clone().iter().enumerate() {
+        if domain.measure == Some(fluent) {
+            continue;
+        }
         let mut all: Vec<Vec<Arg>> = vec![Vec::new()];
         for kind in params {
             let choices: Vec<usize> = domain.of_kind(*kind).filter(|one| *one < domain.declared).collect();
@@ -91,8 +99,17 @@ fn entities(domain: &Domain) -> Terms {
     Terms { known: declared.map(|(index, (_, kind))| (Arg::Entity(index), *kind)).collect(), any: 12 }
 }
 
+/// A fact, or a reading of the measure.
 fn atom(dice: &mut SplitMix64, domain: &Domain, terms: &Terms) -> Atom {
     let fluent = dice.random_range(0..domain.fluents.len());
+    let mut read = terms.clone();
+    if domain.measure == Some(fluent) {
+        read.any = 0;
+    }
+    atom_of(dice, domain, &read, fluent)
+}
+
+fn atom_of(dice: &mut SplitMix64, domain: &Domain, terms: &Terms, fluent: usize) -> Atom {
     let params = domain.fluents.get(fluent).cloned().unwrap_or_default();
     let args = params.iter().map(|kind| {
         let fitting = terms.of_kind(*kind);
@@ -134,9 +151,17 @@ fn clause(dice: &mut SplitMix64, domain: &Domain, terms: &Terms) -> (Option<Kind
     (each, terms, when)
 }
 
+/// The domain without its measure, which stands last: effects neither make a reading nor depend on one.
+fn unmeasured(domain: &Domain) -> Domain {
+    let mut domain = domain.clone();
+    domain.fluents.truncate(domain.measure.take().unwrap_or(usize::MAX));
+    domain
+}
+
 fn change(dice: &mut SplitMix64, domain: &Domain, terms: &Terms) -> Change {
-    let (each, terms, when) = clause(dice, domain, terms);
-    Change { atom: atom(dice, domain, &terms), truth: chance(dice, 55), each, when }
+    let (each, terms, when) = clause(dice, &unmeasured(domain), terms);
+    let fluent = dice.random_range(0..domain.measure.unwrap_or(domain.fluents.len()));
+    Change { atom: atom_of(dice, domain, &terms, fluent), truth: chance(dice, 55), each, when }
 }
 
 fn action(dice: &mut SplitMix64, domain: &Domain, finds: bool) -> Action {
@@ -154,16 +179,18 @@ fn action(dice: &mut SplitMix64, domain: &Domain, finds: bool) -> Action {
         Need { condition: condition(dice, domain, &terms, 1), each, when }
     });
     let needs = needs.collect();
+    let finds_all = finds && chance(dice, 30);
+    let finds = finds && !finds_all;
     if finds {
         terms = terms.with(Arg::Result, Kind::Object).with(Arg::Result, Kind::Object);
     }
-    let least = usize::from(!finds);
+    let least = usize::from(!finds && !finds_all);
     let makes = (0..least + dice.random_range(0..3)).map(|_| change(dice, domain, &terms)).collect();
     let unsettles = (0..usize::from(chance(dice, 20))).map(|_| change(dice, domain, &terms)).collect();
     let fails = FAILURES.into_iter().filter(|_| chance(dice, 40)).collect();
     // Without any it would hold the whole robot.
     let uses = chance(dice, 90).then(|| one_of(dice, &RESOURCES)).flatten();
-    Action { name: String::new(), params, needs, makes, unsettles, fails, uses, finds }
+    Action { name: String::new(), params, needs, makes, unsettles, fails, uses, finds, finds_all }
 }
 
 /// Maker of a policy.
@@ -172,6 +199,8 @@ struct Maker<'a> {
     domain: &'a Domain,
     /// Names in scope; all are of objects.
     names: Vec<usize>,
+    /// Names in scope of lists of objects.
+    lists: Vec<usize>,
     made: usize,
     policies: usize,
 }
@@ -179,7 +208,7 @@ struct Maker<'a> {
 /// A policy of few steps over a domain.
 #[must_use]
 pub(super) fn policy(dice: &mut SplitMix64, domain: &Domain) -> Policy {
-    let mut maker = Maker { dice, domain, names: Vec::new(), made: 0, policies: 0 };
+    let mut maker = Maker { dice, domain, names: Vec::new(), lists: Vec::new(), made: 0, policies: 0 };
     let mut called = Vec::new();
     if chance(maker.dice, 20) {
         let name = maker.name();
@@ -190,7 +219,8 @@ pub(super) fn policy(dice: &mut SplitMix64, domain: &Domain) -> Policy {
     maker.policies = called.len();
     let length = 2 + maker.dice.random_range(0..4);
     let body = maker.block(length, 3);
-    Policy { body, called }
+    let later = if chance(maker.dice, 12) { maker.block(2, 2) } else { Vec::new() };
+    Policy { body, called, later }
 }
 
 impl Maker<'_> {
@@ -201,9 +231,10 @@ impl Maker<'_> {
 
     /// Steps, whose names end with them.
     fn block(&mut self, length: usize, depth: u32) -> Vec<Step> {
-        let scope = self.names.len();
+        let (names, lists) = (self.names.len(), self.lists.len());
         let steps = (0..length).map(|_| self.step(depth)).collect();
-        self.names.truncate(scope);
+        self.names.truncate(names);
+        self.lists.truncate(lists);
         steps
     }
 
@@ -222,6 +253,10 @@ impl Maker<'_> {
         condition(self.dice, self.domain, &terms, 1)
     }
 
+    fn end(&mut self) -> &'static str {
+        one_of(self.dice, &ENDS).unwrap_or_default()
+    }
+
     fn objects(&mut self) -> Vec<usize> {
         let all: Vec<usize> =
             self.domain.of_kind(Kind::Object).filter(|one| *one < self.domain.declared).collect();
@@ -231,11 +266,11 @@ impl Maker<'_> {
 
     fn call(&mut self) -> Step {
         let action = self.dice.random_range(0..self.domain.actions.len());
-        let Some(def) = self.domain.actions.get(action) else { return Step::Done };
+        let Some(def) = self.domain.actions.get(action) else { return Step::Delay };
         let terms = self.terms();
         let args = def.params.iter().filter_map(|kind| one_of(self.dice, &terms.of_kind(*kind))).collect();
-        let name = (def.finds && chance(self.dice, 85)).then(|| self.name());
-        self.names.extend(name);
+        let name = ((def.finds || def.finds_all) && chance(self.dice, 85)).then(|| self.name());
+        (if def.finds_all { &mut self.lists } else { &mut self.names }).extend(name);
         let retry = if chance(self.dice, 12) { 1 + self.dice.random_range(0..2) } else { 0 };
         Step::Call { action, args, name, retry }
     }
@@ -243,6 +278,12 @@ impl Maker<'_> {
     fn step(&mut self, depth: u32) -> Step {
         let choice = if depth == 0 { 0 } else { self.dice.random_range(0..100) };
         match choice {
+            42..44 => {
+                let Some(list) = one_of(self.dice, &self.lists) else { return self.call() };
+                let name = self.name();
+                self.names.push(name);
+                Step::First { list, name }
+            }
             44..48 => {
                 let (among, name) = (self.objects(), self.name());
                 self.names.push(name);
@@ -254,7 +295,8 @@ impl Maker<'_> {
                 let otherwise = if chance(self.dice, 60) { self.inner(depth) } else { Vec::new() };
                 Step::If(test, then, otherwise)
             }
-            58..62 => Step::Wait(self.test()),
+            58..61 => Step::Wait(self.test()),
+            61..62 => Step::Delay,
             62..71 => {
                 let body = self.inner(depth);
                 let on: [&[&'static str]; 3] = [&["slipped"], &["blocked", "timeout"], &[]];
@@ -276,21 +318,29 @@ impl Maker<'_> {
                 Step::Repeat(times, body, until)
             }
             81..85 => {
-                let (among, name) = (self.objects(), self.name());
+                let list = one_of(self.dice, &self.lists).filter(|_| chance(self.dice, 50));
+                let among = list.map_or_else(|| Among::Entities(self.objects()), Among::List);
+                let name = self.name();
                 self.names.push(name);
                 let body = self.inner(depth);
                 self.names.retain(|known| *known != name);
                 Step::Each { among, name, body }
             }
-            85..92 => {
-                let test = self.test();
+            85..91 => {
+                let for_secs = if chance(self.dice, 25) { 1 + self.dice.random_range(0..2) } else { 0 };
+                let watch = Watch { condition: self.test(), for_secs };
                 let reaction = match self.dice.random_range(0..10) {
                     0..3 => Reaction::Pause,
                     3..5 => Reaction::Restart(1 + self.dice.random_range(0..2)),
                     5..9 => Reaction::Resume(1 + self.dice.random_range(0..2), self.inner(1)),
-                    _ => Reaction::Fail,
+                    _ => Reaction::End(self.end()),
                 };
-                Step::Monitor(test, reaction, self.inner(depth))
+                Step::Monitor(watch, reaction, self.inner(depth))
+            }
+            91..92 => {
+                let known = self.terms().of_kind(Kind::Entity);
+                let of = one_of(self.dice, &known).unwrap_or(Arg::Entity(0));
+                Step::Keep(of, self.inner(depth))
             }
             92..93 => Step::Within(self.inner(depth)),
             93..97 => Step::Parallel((0..2).map(|_| self.inner(depth.min(2))).collect()),
@@ -299,13 +349,7 @@ impl Maker<'_> {
                 let arg = one_of(self.dice, &objects).unwrap_or(Arg::Entity(0));
                 Step::Policy(self.dice.random_range(0..self.policies), arg)
             }
-            99 => {
-                if chance(self.dice, 50) {
-                    Step::Done
-                } else {
-                    Step::Fail
-                }
-            }
+            99 => Step::End(self.end()),
             _ => self.call(),
         }
     }

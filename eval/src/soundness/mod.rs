@@ -14,7 +14,7 @@ mod shrink;
 mod trial;
 mod world;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use motet_syntax::{FileId, Severity, Source};
 use rand_xoshiro::SplitMix64;
@@ -25,7 +25,7 @@ use self::contract::Domain;
 use self::policy::{Policy, domain_text, policy_text};
 use self::shrink::{Reduced, shrink};
 pub use self::trial::SeededFault;
-use self::trial::{Bench, Checked, Finding, Mistake, Needs};
+use self::trial::{Bench, Checked, Finding, Graphs, Mistake, Needs};
 use crate::Workers;
 
 /// Number of policies over one domain.
@@ -136,23 +136,11 @@ pub fn play(documents: &[(String, String)], seed: u64, fault: Option<SeededFault
             let (policy, sums) = (&policy.name.text, &mut fuzzed.sums);
             sums.policies += 1;
             match bench.check_document(&parsed, policy) {
-                Checked::Accepted(graph) => {
-                    sums.accepted += 1;
-                    let mut seen = BTreeSet::new();
-                    for seed in seed..seed + PLAYED {
-                        sums.runs += 1;
-                        for Finding { mistake, place } in bench.run(&graph, seed, Needs::Compiled) {
-                            if seen.insert(mistake) {
-                                let trace = lines(&bench.trace(&graph, seed));
-                                let what = mistake.text();
-                                let told =
-                                    format!("{name}, `{policy}`: {place} {what} (run {seed})\n{trace}");
-                                fuzzed.findings.push(told);
-                            }
-                        }
-                    }
-                    for mistake in seen {
-                        *sums.findings.entry(format!("{mistake:?}").to_lowercase()).or_default() += 1;
+                Checked::Accepted(graphs) => {
+                    for (mistake, (seed, place)) in mistakes(&bench, &graphs, seed..seed + PLAYED, sums) {
+                        let (what, trace) = (mistake.text(), lines(&bench.trace(&graphs, seed)));
+                        let told = format!("{name}, `{policy}`: {place} {what} (run {seed})\n{trace}");
+                        fuzzed.findings.push(told);
                     }
                 }
                 Checked::Refuted => sums.refuted += 1,
@@ -161,6 +149,28 @@ pub fn play(documents: &[(String, String)], seed: u64, fault: Option<SeededFault
         }
     }
     Ok(fuzzed)
+}
+
+/// Runs an accepted policy with seeds. Returns the mistakes, each with the first seed that shows it and its
+/// place there.
+fn mistakes(
+    bench: &Bench<'_>,
+    graphs: &Graphs,
+    seeds: impl Iterator<Item = u64>,
+    sums: &mut Sums,
+) -> BTreeMap<Mistake, (u64, String)> {
+    sums.accepted += 1;
+    let mut mistakes = BTreeMap::new();
+    for seed in seeds {
+        sums.runs += 1;
+        for Finding { mistake, place } in bench.run(graphs, seed, Needs::Compiled) {
+            mistakes.entry(mistake).or_insert((seed, place));
+        }
+    }
+    for mistake in mistakes.keys() {
+        *sums.findings.entry(format!("{mistake:?}").to_lowercase()).or_default() += 1;
+    }
+    mistakes
 }
 
 /// A run, as comments.
@@ -184,25 +194,17 @@ fn fuzz_domain(
         let base = first.wrapping_mul(997).wrapping_add(number * RUNS) & !3;
         let seeds: Vec<u64> = (0..RUNS).map(|run| base.wrapping_add(run)).collect();
         match bench.check(&policy) {
-            Checked::Accepted(graph) => {
-                sums.accepted += 1;
-                let mut mistakes = BTreeSet::new();
-                for seed in &seeds {
-                    sums.runs += 1;
-                    let findings = bench.run(&graph, *seed, Needs::Compiled);
-                    mistakes.extend(findings.iter().map(|finding| finding.mistake));
-                }
-                for mistake in mistakes {
-                    *sums.findings.entry(format!("{mistake:?}").to_lowercase()).or_default() += 1;
+            Checked::Accepted(graphs) => {
+                for mistake in mistakes(&bench, &graphs, seeds.iter().copied(), &mut sums).into_keys() {
                     let (domain, policy, seeds) = (domain.clone(), policy.clone(), seeds.clone());
                     found.push(Found { domain, policy, mistake, seeds });
                 }
             }
             Checked::Refuted => {
                 sums.refuted += 1;
-                if let Checked::Accepted(graph) = bare.check(&policy) {
+                if let Checked::Accepted(graphs) = bare.check(&policy) {
                     let breaks = |seed: &u64| {
-                        let findings = bare.run(&graph, *seed, Needs::Dropped);
+                        let findings = bare.run(&graphs, *seed, Needs::Dropped);
                         findings.iter().any(|found| found.mistake == Mistake::Proven)
                     };
                     sums.refuted_in_vain += usize::from(!seeds.iter().any(breaks));

@@ -19,24 +19,51 @@ pub(super) enum Step {
         among: Vec<usize>,
         name: usize,
     },
+    /// The first of a list.
+    First {
+        list: usize,
+        name: usize,
+    },
     If(Condition, Vec<Self>, Vec<Self>),
     Wait(Condition),
+    /// A wait for a time.
+    Delay,
     /// Handlers by kinds of failure; none for any.
     Try(Vec<Self>, Vec<(Vec<&'static str>, Vec<Self>)>),
     Finally(Vec<Self>, Vec<Self>),
     Repeat(u32, Vec<Self>, Option<Condition>),
     Each {
-        among: Vec<usize>,
+        among: Among,
         name: usize,
         body: Vec<Self>,
     },
-    Monitor(Condition, Reaction, Vec<Self>),
+    Monitor(Watch, Reaction, Vec<Self>),
+    /// A distance is kept from an entity or a name.
+    Keep(Arg, Vec<Self>),
     Within(Vec<Self>),
     Parallel(Vec<Vec<Self>>),
     /// A call of a policy with an argument.
     Policy(usize, Arg),
-    Done,
-    Fail,
+    /// The end of the policy, one of [`ENDS`].
+    End(&'static str),
+}
+
+/// Endings of a policy, as text.
+pub(super) const ENDS: [&str; 4] = ["done", "fail \"no\"", "cannot \"no\"", "replan \"no\""];
+
+/// Objects that a loop goes over.
+#[derive(Clone, Debug)]
+pub(super) enum Among {
+    Entities(Vec<usize>),
+    /// A list that a perception has found.
+    List(usize),
+}
+
+/// Condition of a monitor, and the time in s for which it has to hold.
+#[derive(Clone, Debug)]
+pub(super) struct Watch {
+    pub(super) condition: Condition,
+    pub(super) for_secs: u32,
 }
 
 /// Reaction of a monitor.
@@ -45,7 +72,8 @@ pub(super) enum Reaction {
     Pause,
     Restart(u32),
     Resume(u32, Vec<Step>),
-    Fail,
+    /// The end of the policy, one of [`ENDS`].
+    End(&'static str),
 }
 
 /// A policy, with those that it calls.
@@ -54,6 +82,8 @@ pub(super) struct Policy {
     pub(super) body: Vec<Step>,
     /// The name of the parameter, and the steps.
     pub(super) called: Vec<(usize, Vec<Step>)>,
+    /// Steps of a policy that takes over in mid-run; none without one.
+    pub(super) later: Vec<Step>,
 }
 
 impl Step {
@@ -61,13 +91,14 @@ impl Step {
     #[must_use]
     pub(super) fn blocks(&self) -> Vec<&Vec<Self>> {
         match self {
-            Self::Call { .. } | Self::Choose { .. } | Self::Wait(_) | Self::Policy(..) => Vec::new(),
-            Self::Done | Self::Fail => Vec::new(),
+            Self::Call { .. } | Self::Choose { .. } | Self::First { .. } | Self::Policy(..) => Vec::new(),
+            Self::Wait(_) | Self::Delay | Self::End(_) => Vec::new(),
             Self::If(_, one, other) | Self::Finally(one, other) => vec![one, other],
             Self::Try(body, handlers) => {
                 std::iter::once(body).chain(handlers.iter().map(|(_, steps)| steps)).collect()
             }
-            Self::Repeat(_, body, _) | Self::Each { body, .. } | Self::Within(body) => vec![body],
+            Self::Repeat(_, body, _) | Self::Each { body, .. } => vec![body],
+            Self::Keep(_, body) | Self::Within(body) => vec![body],
             Self::Monitor(_, Reaction::Resume(_, reaction), body) => vec![body, reaction],
             Self::Monitor(_, _, body) => vec![body],
             Self::Parallel(branches) => branches.iter().collect(),
@@ -77,13 +108,14 @@ impl Step {
     /// The blocks of the step, to be changed.
     pub(super) fn blocks_mut(&mut self) -> Vec<&mut Vec<Self>> {
         match self {
-            Self::Call { .. } | Self::Choose { .. } | Self::Wait(_) | Self::Policy(..) => Vec::new(),
-            Self::Done | Self::Fail => Vec::new(),
+            Self::Call { .. } | Self::Choose { .. } | Self::First { .. } | Self::Policy(..) => Vec::new(),
+            Self::Wait(_) | Self::Delay | Self::End(_) => Vec::new(),
             Self::If(_, one, other) | Self::Finally(one, other) => vec![one, other],
             Self::Try(body, handlers) => {
                 std::iter::once(body).chain(handlers.iter_mut().map(|(_, steps)| steps)).collect()
             }
-            Self::Repeat(_, body, _) | Self::Each { body, .. } | Self::Within(body) => vec![body],
+            Self::Repeat(_, body, _) | Self::Each { body, .. } => vec![body],
+            Self::Keep(_, body) | Self::Within(body) => vec![body],
             Self::Monitor(_, Reaction::Resume(_, reaction), body) => vec![body, reaction],
             Self::Monitor(_, _, body) => vec![body],
             Self::Parallel(branches) => branches.iter_mut().collect(),
@@ -108,7 +140,10 @@ pub(super) fn domain_text(domain: &Domain, with_needs: bool) -> String {
     for (name, kind) in domain.entities.iter().take(domain.declared) {
         let _ = writeln!(writer.out, "entity {name}: {kind}");
     }
-    for (name, params) in domain.names.iter().zip(&domain.fluents) {
+    for (index, (name, params)) in domain.names.iter().zip(&domain.fluents).enumerate() {
+        if domain.measure == Some(index) {
+            continue;
+        }
         let params: Vec<String> = (0..).zip(params).map(|(at, kind)| format!("p{at}: {kind}")).collect();
         let _ = writeln!(writer.out, "fluent {name}({})", params.join(", "));
     }
@@ -123,7 +158,7 @@ pub(super) fn domain_text(domain: &Domain, with_needs: bool) -> String {
     writer.out
 }
 
-/// A policy `p`, behind those that it calls.
+/// A policy `p`, behind those that it calls, and before the policy `later` that takes over.
 #[must_use]
 pub(super) fn policy_text(domain: &Domain, policy: &Policy) -> String {
     let mut writer = Writer { domain, out: String::new(), groups: 0 };
@@ -132,9 +167,11 @@ pub(super) fn policy_text(domain: &Domain, policy: &Policy) -> String {
         writer.block(body, 1);
         writer.out.push_str("}\n");
     }
-    writer.out.push_str("policy p {\n");
-    writer.block(&policy.body, 1);
-    writer.out.push_str("}\n");
+    for (name, body) in [("p", &policy.body), ("later", &policy.later)] {
+        if name == "p" || !body.is_empty() {
+            writer.nested(0, &format!("policy {name}"), body);
+        }
+    }
     writer.out
 }
 
@@ -146,8 +183,12 @@ impl Writer<'_> {
     fn action(&mut self, action: &Action, with_needs: bool) {
         let mut params: Vec<String> =
             (0..).zip(&action.params).map(|(at, kind)| format!("x{at}: {kind}")).collect();
-        let (what, result) = if action.finds { ("perception", " -> Object") } else { ("action", "") };
-        if action.finds {
+        let (what, result) = match (action.finds, action.finds_all) {
+            (true, _) => ("perception", " -> Object"),
+            (_, true) => ("perception", " -> List<Object>"),
+            (false, false) => ("action", ""),
+        };
+        if !result.is_empty() {
             params.insert(0, "what: Text".to_owned());
         }
         let _ = writeln!(self.out, "{what} {}({}){result}", action.name, params.join(", "));
@@ -198,7 +239,8 @@ impl Writer<'_> {
     fn atom(&self, atom: &Atom) -> String {
         let args: Vec<String> = atom.args.iter().map(|arg| self.arg(*arg)).collect();
         let name = self.domain.names.get(atom.fluent).map_or("", String::as_str);
-        format!("{name}({})", args.join(", "))
+        let is_measure = self.domain.measure == Some(atom.fluent);
+        format!("{name}({}){}", args.join(", "), if is_measure { " < 1 m" } else { "" })
     }
 
     fn condition(&self, condition: &Condition) -> String {
@@ -211,6 +253,9 @@ impl Writer<'_> {
             Condition::Same(one, other) => format!("{} == {}", self.arg(*one), self.arg(*other)),
             Condition::Not(inner) => match &**inner {
                 Condition::Same(one, other) => format!("{} != {}", self.arg(*one), self.arg(*other)),
+                Condition::Is(atom) if self.domain.measure == Some(atom.fluent) => {
+                    self.atom(atom).replace('<', ">=")
+                }
                 inner => format!("not {}", self.condition(inner)),
             },
             Condition::All(all) => parts(all, " and "),
@@ -237,10 +282,11 @@ impl Writer<'_> {
             Step::Call { action, args, name, retry } => {
                 let Some(action) = self.domain.actions.get(*action) else { return };
                 let mut args: Vec<String> = args.iter().map(|arg| self.arg(*arg)).collect();
-                if action.finds {
+                if action.finds || action.finds_all {
                     args.insert(0, "\"thing\"".to_owned());
                 }
-                let name = name.map_or_else(String::new, |name| format!("let m{name} = "));
+                let sort = if action.finds_all { 'l' } else { 'm' };
+                let name = name.map_or_else(String::new, |name| format!("let {sort}{name} = "));
                 let retry = if *retry > 0 { format!(" retry {retry}") } else { String::new() };
                 self.line(depth, &format!("{name}{}({}){retry}", action.name, args.join(", ")));
             }
@@ -248,6 +294,7 @@ impl Writer<'_> {
                 let text = format!("let m{name} = choose(\"which?\", [{}])", self.names(among));
                 self.line(depth, &text);
             }
+            Step::First { list, name } => self.line(depth, &format!("let m{name} = first(l{list})")),
             Step::If(test, then, otherwise) => {
                 self.nested(depth, &format!("if {}", self.condition(test)), then);
                 if !otherwise.is_empty() {
@@ -256,6 +303,7 @@ impl Writer<'_> {
                 }
             }
             Step::Wait(test) => self.line(depth, &format!("wait until {} within 3 s", self.condition(test))),
+            Step::Delay => self.line(depth, "wait 2 s"),
             Step::Try(body, handlers) => {
                 self.nested(depth, "try", body);
                 for (kinds, handler) in handlers {
@@ -279,14 +327,19 @@ impl Writer<'_> {
                 }
             }
             Step::Each { among, name, body } => {
-                let text = format!("each m{name} in [{}] at most 3", self.names(among));
+                let among = match among {
+                    Among::Entities(among) => format!("[{}]", self.names(among)),
+                    Among::List(list) => format!("l{list}"),
+                };
+                let text = format!("each m{name} in {among} at most 3");
                 self.nested(depth, &text, body);
             }
-            Step::Monitor(test, reaction, body) => {
-                let then = format!("monitor when {} then", self.condition(test));
+            Step::Monitor(Watch { condition, for_secs }, reaction, body) => {
+                let held = if *for_secs > 0 { format!(" for {for_secs} s") } else { String::new() };
+                let then = format!("monitor when {}{held} then", self.condition(condition));
                 match reaction {
                     Reaction::Pause => self.nested(depth, &format!("{then} pause during"), body),
-                    Reaction::Fail => self.nested(depth, &format!("{then} fail \"no\" during"), body),
+                    Reaction::End(end) => self.nested(depth, &format!("{then} {end} during"), body),
                     Reaction::Restart(count) => {
                         self.nested(depth, &format!("{then} restart at most {count} during"), body);
                     }
@@ -296,6 +349,10 @@ impl Writer<'_> {
                         self.nested(0, " during", body);
                     }
                 }
+            }
+            Step::Keep(of, body) => {
+                let text = format!("keep distance({}) >= 1 m", self.arg(*of));
+                self.nested(depth, &text, body);
             }
             Step::Within(body) => self.nested(depth, "within 6 s", body),
             Step::Parallel(branches) => {
@@ -307,8 +364,7 @@ impl Writer<'_> {
                 let text = format!("q{index}({})", self.arg(*arg));
                 self.line(depth, &text);
             }
-            Step::Done => self.line(depth, "done"),
-            Step::Fail => self.line(depth, "fail \"no\""),
+            Step::End(end) => self.line(depth, end),
         }
     }
 

@@ -84,8 +84,10 @@ fn action(decl: &PrimitiveDecl, domain: &Domain) -> Result<Action, String> {
     // Texts and numbers say nothing about facts.
     let entities = decl.params.iter().filter_map(|param| Some((&*param.name.text, kind(&param.ty).ok()?)));
     let (names, params): (Vec<&str>, Vec<Kind>) = entities.unzip();
-    let finds = decl.kind == PrimitiveKind::Perception && decl.result.is_some();
-    let mut action = Action { name: decl.name.text.to_string(), params, finds, ..Action::default() };
+    let finds_all = matches!(decl.result, Some(TypeExpr::List(..)));
+    let finds = decl.kind == PrimitiveKind::Perception && decl.result.is_some() && !finds_all;
+    let name = decl.name.text.to_string();
+    let mut action = Action { name, params, finds, finds_all, ..Action::default() };
     for clause in &decl.clauses {
         match clause {
             Clause::Needs(all) => {

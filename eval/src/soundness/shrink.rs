@@ -1,7 +1,7 @@
 //! Smaller policies and domains with the same mistake.
 
 use super::contract::{Action, Domain};
-use super::policy::{Policy, Reaction, Step};
+use super::policy::{Policy, Reaction, Step, Watch};
 use super::trial::{Bench, Checked, Finding, Mistake, Needs, SeededFault};
 
 /// Greatest number of candidates that are tried.
@@ -72,6 +72,7 @@ fn shows(
 fn policies(policy: &Policy) -> Vec<Policy> {
     let mut all: Vec<Policy> =
         blocks(&policy.body).into_iter().map(|body| Policy { body, ..policy.clone() }).collect();
+    all.extend(blocks(&policy.later).into_iter().map(|later| Policy { later, ..policy.clone() }));
     for index in 0..policy.called.len() {
         let steps = policy.called.get(index).map(|(_, steps)| blocks(steps)).unwrap_or_default();
         for steps in steps {
@@ -135,8 +136,12 @@ fn simpler(step: &Step) -> Vec<Step> {
             }
             all
         }
-        Step::Monitor(test, Reaction::Resume(count, reaction), body) if *count > 1 => {
-            vec![Step::Monitor(test.clone(), Reaction::Resume(count - 1, reaction.clone()), body.clone())]
+        Step::Monitor(watch, reaction, body) if watch.for_secs > 0 => {
+            let watch = Watch { for_secs: 0, ..watch.clone() };
+            vec![Step::Monitor(watch, reaction.clone(), body.clone())]
+        }
+        Step::Monitor(watch, Reaction::Resume(count, reaction), body) if *count > 1 => {
+            vec![Step::Monitor(watch.clone(), Reaction::Resume(count - 1, reaction.clone()), body.clone())]
         }
         _ => Vec::new(),
     }

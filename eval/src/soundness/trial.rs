@@ -3,7 +3,8 @@
 use motet_compiler::Session;
 use motet_graph::{Graph, NodeId, NodeKind, Value, Verdict};
 use motet_runtime::{
-    Command, Driver as _, Effect, Engine, Event, RunEnd, StartState, Time, TraceEventKind, Truth,
+    Command, Driver as _, Effect, Engine, Event, PreparedSwap, RunEnd, StartState, Time, TraceEventKind,
+    Truth,
 };
 use motet_syntax::{Parsed, Severity, Source, Sources};
 use rand_xoshiro::SplitMix64;
@@ -77,10 +78,17 @@ pub(super) struct Finding {
     pub(super) place: String,
 }
 
+/// Graph of a policy, and that of the policy which takes over from it.
+#[derive(Clone, Debug)]
+pub(super) struct Graphs {
+    first: Graph,
+    later: Option<Graph>,
+}
+
 /// Result of checking a policy.
 #[derive(Debug)]
 pub(super) enum Checked {
-    Accepted(Box<Graph>),
+    Accepted(Box<Graphs>),
     /// A need is refuted.
     Refuted,
     /// Something else is wrong with the document, with the codes.
@@ -129,7 +137,17 @@ impl<'d> Bench<'d> {
         let mut sources = Sources::default();
         let source = Source::new("policy.motet", policy_text(self.domain, policy));
         let id = sources.add(source.clone());
-        self.check_document(&motet_syntax::read(&source, id), "p")
+        let parsed = motet_syntax::read(&source, id);
+        let mut checked = self.check_document(&parsed, "p");
+        if let Checked::Accepted(graphs) = &mut checked
+            && !policy.later.is_empty()
+        {
+            match self.check_document(&parsed, "later") {
+                Checked::Accepted(later) => graphs.later = Some(later.first),
+                refused => return refused,
+            }
+        }
+        checked
     }
 
     /// Checks a policy of a document.
@@ -143,44 +161,46 @@ impl<'d> Bench<'d> {
         match compiled.graph {
             Some(mut graph) if codes.is_empty() => {
                 self.fault.into_iter().for_each(|fault| fault.put_into(&mut graph));
-                Checked::Accepted(Box::new(graph))
+                Checked::Accepted(Box::new(Graphs { first: graph, later: None }))
             }
             _ if codes == [REFUTED] => Checked::Refuted,
             _ => Checked::Other(codes),
         }
     }
 
-    /// Runs a graph in a world of a seed.
+    /// Runs a policy in a world of a seed.
     #[must_use]
-    pub(super) fn run(&self, graph: &Graph, seed: u64, needs: Needs) -> Vec<Finding> {
-        let world = self.world(seed);
-        let mood = world.mood();
-        let Ok(engine) = Engine::new(graph.clone(), &StartState::default()) else { return Vec::new() };
-        let engine = engine.with_capabilities(world.capabilities());
-        Run { engine, world, mood, needs, findings: Vec::new(), bindings: Vec::new(), log: None }
-            .whole()
-            .findings
+    pub(super) fn run(&self, graphs: &Graphs, seed: u64, needs: Needs) -> Vec<Finding> {
+        self.started(graphs, seed, needs, None).map_or_else(Vec::new, |run| run.whole().findings)
     }
 
-    /// Runs a graph, and returns what happened, line by line.
+    /// Runs a policy, and returns what happened, line by line.
     #[must_use]
-    pub(super) fn trace(&self, graph: &Graph, seed: u64) -> Vec<String> {
+    pub(super) fn trace(&self, graphs: &Graphs, seed: u64) -> Vec<String> {
+        let run = self.started(graphs, seed, Needs::Compiled, Some(Vec::new()));
+        run.and_then(|run| run.whole().log).unwrap_or_default()
+    }
+
+    fn started(
+        &self,
+        graphs: &Graphs,
+        seed: u64,
+        needs: Needs,
+        mut log: Option<Vec<String>>,
+    ) -> Option<Run<'_>> {
         let mut world = self.world(seed);
-        world.changes = Some(Vec::new());
         let mood = world.mood();
-        let Ok(engine) = Engine::new(graph.clone(), &StartState::default()) else { return Vec::new() };
+        if let Some(log) = &mut log {
+            world.changes = Some(Vec::new());
+            log.push(format!("{mood:?} world"));
+        }
+        let engine = Engine::new(graphs.first.clone(), &StartState::default()).ok()?;
         let engine = engine.with_capabilities(world.capabilities());
-        let log = Some(vec![format!("{mood:?} world")]);
-        let run = Run {
-            engine,
-            world,
-            mood,
-            needs: Needs::Compiled,
-            findings: Vec::new(),
-            bindings: Vec::new(),
-            log,
-        };
-        run.whole().log.unwrap_or_default()
+        // A quarter of the runs is seen to its end.
+        let after = (seed / 4) % 16;
+        let later = graphs.later.clone().map(|later| (after, later)).filter(|(after, _)| *after < 12);
+        let (findings, bindings) = (Vec::new(), Vec::new());
+        Some(Run { engine, world, mood, needs, later, findings, bindings, log })
     }
 
     /// A world of a seed, which also decides its mood.
@@ -208,6 +228,8 @@ struct Run<'d> {
     world: World<'d>,
     mood: Mood,
     needs: Needs,
+    /// The number of events after which another policy takes over, and its graph.
+    later: Option<(u64, Graph)>,
     findings: Vec<Finding>,
     /// Values of the names, by what the run has reported so far.
     bindings: Vec<Option<Value>>,
@@ -219,26 +241,17 @@ impl Run<'_> {
     /// Runs to the end.
     fn whole(mut self) -> Self {
         let (mut now, mut event, mut effects) = (Time::ZERO, Event::Begin, Vec::new());
-        for _ in 0..MAX_EVENTS {
+        for number in 0..MAX_EVENTS as u64 {
             self.log(now, || format!("< {event:?}"));
             self.engine.handle(now, event, &mut effects);
-            for effect in std::mem::take(&mut effects) {
-                match &effect {
-                    Effect::Report(trace) => self.log(now, || format!("    {:?}", trace.what)),
-                    effect => self.log(now, || format!("> {effect:?}")),
+            if self.carry_out(now, &mut effects) {
+                return self;
+            }
+            if let Some((_, graph)) = self.later.take_if(|(after, _)| *after == number) {
+                self.take_over(now, graph, &mut effects);
+                if self.carry_out(now, &mut effects) {
+                    return self;
                 }
-                match &effect {
-                    Effect::Finished(end) => {
-                        if matches!(**end, RunEnd::Fault(_)) {
-                            self.note(Mistake::Endless, format!("{end}"));
-                        }
-                        return self;
-                    }
-                    Effect::Start { node, command, .. } => self.started(*node, command),
-                    Effect::Report(trace) => self.reported(&trace.what),
-                    _ => {}
-                }
-                self.world.carry_out(now, &effect);
             }
             let wake = self.engine.wake_at().unwrap_or(Time::NEVER);
             (now, event) = match self.world.advance(wake) {
@@ -252,6 +265,39 @@ impl Run<'_> {
         }
         self.note(Mistake::Endless, format!("more than {MAX_EVENTS} events"));
         self
+    }
+
+    /// Carries out what the engine asks for; returns true at the end of the run.
+    fn carry_out(&mut self, now: Time, effects: &mut Vec<Effect>) -> bool {
+        for effect in std::mem::take(effects) {
+            match &effect {
+                Effect::Report(trace) => self.log(now, || format!("    {:?}", trace.what)),
+                effect => self.log(now, || format!("> {effect:?}")),
+            }
+            match &effect {
+                Effect::Finished(end) => {
+                    if matches!(**end, RunEnd::Fault(_)) {
+                        self.note(Mistake::Endless, format!("{end}"));
+                    }
+                    return true;
+                }
+                Effect::Start { node, command, .. } => self.started(*node, command),
+                Effect::Report(trace) => self.reported(&trace.what),
+                _ => {}
+            }
+            self.world.carry_out(now, &effect);
+        }
+        false
+    }
+
+    /// Another policy takes over, unless the engine refuses it.
+    fn take_over(&mut self, now: Time, graph: Graph, effects: &mut Vec<Effect>) {
+        let swapped = PreparedSwap::new(graph, &self.engine.running())
+            .and_then(|prepared| self.engine.swap(now, prepared, effects).map(drop));
+        self.log(now, || format!("< swap: {swapped:?}"));
+        if swapped.is_ok() {
+            self.bindings.clear();
+        }
     }
 
     /// Logs a line, if the run is to be shown.
@@ -325,6 +371,10 @@ impl Run<'_> {
             _ => None,
         });
         let frame = self.world.frame(args);
+        if frame.params.len() < action.params.len() {
+            // A name that the policy before it has bound.
+            return;
+        }
         let Some(need) = action.needs.get(index) else { return };
         let (domain, state) = (self.world.domain(), &self.world.state);
         if self.world.is_moving(&domain.asked(need, &frame)) {

@@ -174,30 +174,46 @@ impl<'d> World<'d> {
         if is_late { self.later(LATE_SECS) } else { self.now }
     }
 
-    fn answer(&self, query: &Query) -> Answer {
-        let Query::Fact { fluent, args } = query else { return Answer::Unknown };
-        let fluent = self.domain.fluent(fluent);
-        let args = args.iter().map(|arg| match arg {
-            Pattern::Any => Some(None),
-            Pattern::Is(Value::Entity(id)) => self.domain.entity(id).map(Some),
-            Pattern::Is(_) => None,
-        });
-        let Some((fluent, args)) = fluent.zip(args.collect::<Option<Vec<_>>>()) else {
-            return Answer::Unknown;
+    /// Cells that a query asks for; none where nobody can tell.
+    fn asked(&self, query: &Query) -> Option<Vec<usize>> {
+        let entity = |value: &Value| match value {
+            Value::Entity(id) => self.domain.entity(id),
+            _ => None,
         };
-        let cells = self.domain.cells(fluent, &args);
+        let (fluent, args): (_, Option<Vec<_>>) = match query {
+            Query::Fact { fluent, args } => {
+                let args = args.iter().map(|arg| match arg {
+                    Pattern::Any => Some(None),
+                    Pattern::Is(value) => entity(value).map(Some),
+                });
+                (self.domain.fluent(fluent), args.collect())
+            }
+            Query::Measure { args, .. } => {
+                (self.domain.measure, args.iter().map(|value| entity(value).map(Some)).collect())
+            }
+            Query::Field { .. } => (None, None),
+        };
+        Some(self.domain.cells(fluent?, &args?))
+    }
+
+    fn answer(&self, query: &Query) -> Answer {
+        let Some(cells) = self.asked(query) else { return Answer::Unknown };
+        let told = |truth: bool| match query {
+            Query::Measure { .. } => Answer::Value(Value::Number(if truth { 0.5 } else { 2.0 })),
+            Query::Fact { .. } | Query::Field { .. } => Answer::Truth(truth),
+        };
         let (hidden, seen): (Vec<usize>, Vec<usize>) =
             cells.into_iter().partition(|cell| self.is_hidden(&[*cell]));
         if seen.iter().any(|cell| self.state.get(*cell) == Some(&true)) {
-            return Answer::Truth(true);
+            return told(true);
         }
-        if hidden.is_empty() { Answer::Truth(false) } else { Answer::Unknown }
+        if hidden.is_empty() { told(false) } else { Answer::Unknown }
     }
 
     fn is_watched(&self, query: &Query) -> bool {
         let name = |query: &Query| match query {
-            Query::Fact { fluent, .. } => Some(fluent.clone()),
-            Query::Measure { .. } | Query::Field { .. } => None,
+            Query::Fact { fluent: name, .. } | Query::Measure { measure: name, .. } => Some(name.clone()),
+            Query::Field { .. } => None,
         };
         self.watches.iter().any(|(watched, _)| name(watched) == name(query))
     }
@@ -229,14 +245,7 @@ impl<'d> World<'d> {
         }
         let place = self.dice.random_range(0..self.watches.len().max(1));
         let Some((query, known)) = self.watches.get(place).cloned() else { return };
-        let Query::Fact { fluent, args } = &query else { return };
-        let fluent = self.domain.fluent(fluent);
-        let args = args.iter().map(|arg| match arg {
-            Pattern::Is(Value::Entity(id)) => self.domain.entity(id),
-            Pattern::Is(_) | Pattern::Any => None,
-        });
-        let (Some(fluent), args) = (fluent, args.collect::<Vec<_>>()) else { return };
-        let cells = self.domain.cells(fluent, &args);
+        let Some(cells) = self.asked(&query) else { return };
         if let Some(cell) = one_of(&mut self.dice, &cells).filter(|cell| !self.is_moving(&[*cell])) {
             let truth = self.state.get(cell) == Some(&true);
             put(&mut self.state, cell, !truth);
@@ -351,13 +360,17 @@ impl<'d> World<'d> {
             let kind = one_of(&mut self.dice, &action.fails).unwrap_or("failed");
             return Outcome::Failure(kind.into());
         }
-        if !action.finds {
-            return Outcome::Success(None);
-        }
         let objects: Vec<usize> = self.domain.of_kind(Kind::Object).collect();
-        frame.result = one_of(&mut self.dice, &objects);
-        let name = frame.result.and_then(|one| self.domain.entities.get(one));
-        Outcome::Success(name.map(|(name, _)| Value::Entity(name.as_str().into())))
+        let domain = self.domain;
+        let value =
+            |one: usize| domain.entities.get(one).map(|(name, _)| Value::Entity(name.as_str().into()));
+        if action.finds_all {
+            let count = self.dice.random_range(0..3);
+            let found = (0..count).filter_map(|_| one_of(&mut self.dice, &objects).and_then(value));
+            return Outcome::Success(Some(Value::List(found.collect())));
+        }
+        frame.result = one_of(&mut self.dice, &objects).filter(|_| action.finds);
+        Outcome::Success(frame.result.and_then(value))
     }
 }
 

@@ -1,8 +1,19 @@
 //! Random policies in random worlds: no need that is proven, or that a guard has passed, is false when its
 //! step begins.
 
-use motet_eval::Workers;
+use std::collections::BTreeMap;
+
 use motet_eval::soundness::{SeededFault, fuzz, fuzz_with, play};
+use motet_eval::{Workers, setup};
+use motet_graph::{Condition, FactArg, Graph, Need, NodeKind, Term, Value};
+use motet_runtime::{
+    Answer, Driver as _, Effect, Engine, Event, Pattern, Query, StartState, Time, TraceEventKind, Truth,
+};
+use motet_sim::{Faults, Sim, SimOptions};
+use motet_syntax::{FileId, Severity, Source, Sources};
+
+/// Beside the checkout, where the reference data is kept.
+const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/data/soundness");
 
 #[test]
 fn soundness_no_need_of_a_random_policy_is_broken() {
@@ -32,8 +43,7 @@ fn soundness_the_same_seed_gives_the_same() {
 
 /// Documents of which each had a need that was called proven, or passed by a guard, and did not hold.
 fn documents() -> Vec<(String, String)> {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/data/soundness");
-    let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let files = std::fs::read_dir(FOLDER).unwrap().map(|entry| entry.unwrap().path());
     let mut files: Vec<_> = files.filter(|path| path.extension().is_some_and(|ext| ext == "motet")).collect();
     files.sort();
     let name = |path: &std::path::Path| path.file_name().unwrap().to_string_lossy().into_owned();
@@ -55,4 +65,126 @@ fn soundness_no_need_of_a_document_is_broken() {
         documents.iter().filter(|(name, _)| wrong.findings.iter().any(|told| told.starts_with(name)));
     let broken: Vec<&str> = broken.map(|(name, _)| name.as_str()).collect();
     assert!(broken.len() * 3 >= documents.len() * 2, "{broken:?}");
+}
+
+/// Policies over the standard library that once broke a need: the scene, the faults of the runs, and
+/// the code with which the check refuses it.
+const STANDARD: [(&str, &str, &str, Option<&str>); 17] = [
+    ("s_A_any", "kitchen", "", Some("M0501")),
+    ("s_C_goal", "k.json", "", None),
+    ("s_C_handover", "kitchen", "", Some("M0501")),
+    ("s_C_open", "k_nolock.json", "f_lock.json", None),
+    ("s_C_pick", "k.json", "f_slip.json", None),
+    ("s_C_place", "k.json", "", None),
+    ("s_D_locate", "k.json", "f_moved.json", None),
+    ("s_E_pick", "k.json", "f_moved.json", None),
+    ("s_G", "k.json", "f_walk.json", None),
+    ("s_G_pause", "k.json", "f_walk.json", None),
+    ("s_I_else", "k_nolock.json", "f_lock.json", None),
+    ("s_K_restart", "k.json", "f_slipk.json", Some("M0501")),
+    ("s_L", "k.json", "", None),
+    ("s_L_alias", "k.json", "", None),
+    ("s_L_clear", "k.json", "", None),
+    ("s_M", "k.json", "", None),
+    ("s_N", "k.json", "", None),
+];
+
+#[test]
+#[ignore = "needs the reference data beside the checkout"]
+fn soundness_no_need_of_a_standard_policy_is_broken() {
+    let read = |name: &str| std::fs::read_to_string(format!("{FOLDER}/standard/{name}")).unwrap();
+    let mut told = Vec::new();
+    for (name, scene, faults, refused) in STANDARD {
+        let scene =
+            if scene == "kitchen" { setup::scene(scene) } else { setup::scene_from(scene, &read(scene)) };
+        let robot = setup::robot("hsr");
+        let (session, _) = setup::session(Some(&robot), Some(&scene), &mut Sources::default());
+        let parsed = motet_syntax::read(&Source::new(name, read(&format!("{name}.motet"))), FileId(9));
+        let compiled = session.compile(&parsed, None);
+        let errors = compiled.diagnostics.iter().filter(|found| found.severity == Severity::Error);
+        let errors: Vec<&str> = errors.map(|found| found.code.0).collect();
+        match (refused, compiled.graph) {
+            (Some(code), _) => assert!(errors.contains(&code), "{name}: {errors:?}"),
+            (None, None) => panic!("{name}: {errors:?}"),
+            (None, Some(graph)) => {
+                for seed in 0..20 {
+                    let faults = if faults.is_empty() { "{}".to_owned() } else { read(faults) };
+                    let faults = Faults::from_json(&faults).unwrap();
+                    let sim = Sim::new(&robot, &scene, SimOptions { seed, faults, ..SimOptions::default() });
+                    told.extend(
+                        broken(&graph, sim).into_iter().map(|what| format!("{name}, {seed}: {what}")),
+                    );
+                }
+            }
+        }
+    }
+    assert!(told.is_empty(), "{}", told.join("\n"));
+}
+
+/// Runs a graph in simulation. Returns the needs that are false when their step begins.
+fn broken(graph: &Graph, mut sim: Sim) -> Vec<String> {
+    let engine = Engine::new(graph.clone(), &StartState::default()).unwrap();
+    let mut engine = engine.with_capabilities(sim.capabilities());
+    let (mut now, mut event, mut effects, mut broken) = (Time::ZERO, Event::Begin, Vec::new(), Vec::new());
+    let mut bound: BTreeMap<usize, Value> = BTreeMap::new();
+    loop {
+        engine.handle(now, event, &mut effects);
+        for effect in std::mem::take(&mut effects) {
+            match &effect {
+                Effect::Finished(_) => return broken,
+                Effect::Report(trace) => {
+                    if let TraceEventKind::Bound { binding, value } = &trace.what {
+                        bound.insert(binding.index(), (**value).clone());
+                    }
+                }
+                Effect::Start { node, command, .. } => {
+                    let NodeKind::Call(call) = &graph.nodes[node.index()].kind else { continue };
+                    let of = |condition: &Condition| truth(graph, condition, &sim, &bound);
+                    let is_false = |need: &&Need| {
+                        need.when.as_ref().is_none_or(|when| of(when) == Truth::True)
+                            && of(&need.condition) == Truth::False
+                    };
+                    for need in call.needs.iter().filter(is_false) {
+                        broken.push(format!("{command}: {:?} is {:?}", need.condition, need.verdict));
+                    }
+                }
+                _ => {}
+            }
+            sim.carry_out(now, &effect);
+        }
+        let wake = engine.wake_at().unwrap_or(Time::NEVER);
+        (now, event) = match sim.advance(wake) {
+            Some((at, report)) => (at.max(now), Event::Driver(report)),
+            None => (wake, Event::Tick),
+        };
+        assert!(now < Time::from_secs(3600.0), "the run does not end");
+    }
+}
+
+/// Truth of a condition in the world, as far as it knows.
+fn truth(graph: &Graph, condition: &Condition, sim: &Sim, bound: &BTreeMap<usize, Value>) -> Truth {
+    let part = |part: &Condition| truth(graph, part, sim, bound);
+    match condition {
+        Condition::Literal(value) => Truth::from(*value),
+        Condition::Not(inner) => part(inner).negated(),
+        Condition::All(parts) => parts.iter().fold(Truth::True, |truth, one| truth.and(part(one))),
+        Condition::AnyOf(parts) => parts.iter().fold(Truth::False, |truth, one| truth.or(part(one))),
+        Condition::Compare(..) => Truth::Unknown,
+        Condition::Fact(fact) => {
+            let args = fact.args.iter().map(|arg| match arg {
+                FactArg::Any => Some(Pattern::Any),
+                FactArg::Term(Term::Literal(value)) => Some(Pattern::Is(value.clone())),
+                FactArg::Term(Term::Binding(binding)) => {
+                    bound.get(&binding.index()).cloned().map(Pattern::Is)
+                }
+                FactArg::Term(_) => None,
+            });
+            let Some(args) = args.collect() else { return Truth::Unknown };
+            let fluent = graph.fluents[fact.fluent.index()].name.clone();
+            match sim.truth(&Query::Fact { fluent, args }) {
+                Answer::Truth(truth) => Truth::from(truth),
+                Answer::Unknown | Answer::Value(_) => Truth::Unknown,
+            }
+        }
+    }
 }
