@@ -171,17 +171,18 @@ impl<'d> Bench<'d> {
     /// Runs a policy in a world of a seed.
     #[must_use]
     pub(super) fn run(&self, graphs: &Graphs, seed: u64, needs: Needs) -> Vec<Finding> {
-        self.started(graphs, seed, needs, None).map_or_else(Vec::new, |run| run.whole().findings)
+        self.prepared(graphs, seed, needs, None).map_or_else(Vec::new, |run| run.whole().findings)
     }
 
     /// Runs a policy, and returns what happened, line by line.
     #[must_use]
     pub(super) fn trace(&self, graphs: &Graphs, seed: u64) -> Vec<String> {
-        let run = self.started(graphs, seed, Needs::Compiled, Some(Vec::new()));
+        let run = self.prepared(graphs, seed, Needs::Compiled, Some(Vec::new()));
         run.and_then(|run| run.whole().log).unwrap_or_default()
     }
 
-    fn started(
+    /// A run that is about to begin.
+    fn prepared(
         &self,
         graphs: &Graphs,
         seed: u64,

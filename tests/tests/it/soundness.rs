@@ -284,6 +284,18 @@ fn soundness_what_was_waited_for_may_have_undone_a_step() {
     assert!(at_once.contains(&"M0501"), "{at_once:?}");
 }
 
+#[test]
+fn soundness_a_driver_that_cannot_tell_takes_nothing_back() {
+    let policy = "initially f(a)\npolicy p { repeat 1 { pass() } until f(a) use(a) }";
+    let args = vec![Pattern::Is(Value::Entity("a".into()))];
+    let query = Query::Fact { fluent: "f".into(), args };
+    let found = requests(policy, &mut |effect| {
+        let blind = DriverEvent::Observed { query: query.clone(), answer: Answer::Unknown };
+        std::iter::once(blind).chain(honest(effect, |_| None)).collect()
+    });
+    assert!(found.iter().any(|request| request.contains("use")), "{found:?}");
+}
+
 /// Domain of needs and effects that are about each object.
 const EACH: &str = "
 entity b: Object

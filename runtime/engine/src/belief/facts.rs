@@ -133,6 +133,10 @@ impl Beliefs {
         let query = cell.query.clone();
         if let crate::query::Query::Fact { fluent, args } = &*query {
             let value = truth_of(&answer);
+            if value == Truth::Unknown && cell.watchers == 0 {
+                // Nobody can tell now: what was believed stands.
+                return;
+            }
             let change =
                 BeliefChange { fluent: fluent.clone(), args: args.clone(), value, sure: true, rest: false };
             // That none fits says something of each; that some does, or that it is not known, says nothing of
