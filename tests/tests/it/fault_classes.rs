@@ -40,16 +40,14 @@ fn told(document: &str) -> Told {
     let checked = session.check(&parsed);
     let found = checked.iter().chain(&compiled.diagnostics);
     let codes = found.map(|found| (found.code.0, found.severity)).collect();
-    let mut guarded = Vec::new();
-    for graph in compiled.graph {
-        for node in &graph.nodes {
-            if let NodeKind::Call(call) = &node.kind
-                && call.needs.iter().any(|need| need.verdict == Verdict::Deferred)
-            {
-                guarded.push(graph.primitives[call.primitive.index()].name.to_string());
-            }
-        }
-    }
+    let guarded = compiled.graph.map_or_else(Vec::new, |graph| {
+        let calls = graph.nodes.iter().filter_map(|node| match &node.kind {
+            NodeKind::Call(call) => Some(call),
+            _ => None,
+        });
+        let kept = calls.filter(|call| call.needs.iter().any(|need| need.verdict == Verdict::Deferred));
+        kept.map(|call| graph.primitives[call.primitive.index()].name.to_string()).collect()
+    });
     Told { codes, guarded }
 }
 

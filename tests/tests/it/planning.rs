@@ -56,8 +56,8 @@ fn planner_goals_are_reached() {
 
 #[test]
 fn planner_goal_that_holds_already_is_a_policy_that_is_done() {
-    reaches("kitchen", &["at(robot, start)"], &[("at", &["robot", "start"])]);
-    let planned = plan("hsr", "kitchen", &["at(robot, start)"]).unwrap();
+    reaches("kitchen", &["on(mug_1, kitchen_table)"], &[("on", &["mug_1", "kitchen_table"])]);
+    let planned = plan("hsr", "kitchen", &["on(mug_1, kitchen_table)"]).unwrap();
     assert!(planned.text.contains("{\n    done\n}"), "{}", planned.text);
 }
 
