@@ -5,7 +5,7 @@ use std::io::{BufRead, BufReader, Write};
 use std::net::TcpStream;
 use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// A policy that goes once.
 pub(crate) const AWAY: &str = "policy away for hsr {\n    go(kitchen_table)\n}\n";
@@ -212,6 +212,24 @@ fn driver_that_misbehaves_is_named_and_stopped_safely() {
         std::fs::write(&driver, odd(&then)).unwrap();
         let ran = place.run_args(&driven("away.motet", &format!("python3 '{}'", driver.display())));
         ran.check(3, &[&format!("err:{message}"), "out:failed with"]);
+    }
+}
+
+#[test]
+fn driver_that_dies_after_its_greeting_ends_the_run_soon() {
+    if !has_python() {
+        return;
+    }
+    let place = Place::new("drive_dies").file("away.motet", AWAY);
+    for then in ["    if m['method'] == 'start': sys.exit(0)\n", "", "    sys.exit(0)\n"] {
+        let dies = if then.is_empty() { odd("").replace("continue", "sys.exit(0)") } else { odd(then) };
+        let driver = place.path("dies");
+        std::fs::write(&driver, dies).unwrap();
+        let begun = Instant::now();
+        let ran = place.run_args(&driven("away.motet", &format!("python3 '{}'", driver.display())));
+        ran.check(3, &["out:confirmed neither a cancel nor a safe stop; the robot may still move"]);
+        // A safe stop is waited for during 17 s.
+        assert!(begun.elapsed().as_secs_f64() < 12.0, "{:?}", begun.elapsed());
     }
 }
 

@@ -185,7 +185,7 @@ impl PageFeed {
             DriverEvent::NotHeld { goal } => {
                 changes.push(json!({"k": "state", "g": goal.to_string(), "is": "not held"}));
             }
-            DriverEvent::DriverLost => changes.push(json!({"k": "lost"})),
+            DriverEvent::DriverLost | DriverEvent::DriverGone => changes.push(json!({"k": "lost"})),
             DriverEvent::Observed { query, answer } => {
                 let (query, answer) = (escape(&query.to_string()), escape(&answer.to_string()));
                 if self.beliefs.readings.insert(query.clone(), answer.clone()).as_ref() != Some(&answer) {

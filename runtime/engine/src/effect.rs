@@ -241,7 +241,7 @@ pub enum RunEnd {
 pub enum Fault {
     /// More transitions at one instant than the budget allows.
     StepBudget { steps: u32 },
-    /// The driver answered neither a cancel nor a safe stop.
+    /// The driver answered neither a cancel nor a safe stop in time, or is gone for good.
     NotStopped {
         /// The step whose goal is still live.
         node: NodeId,
@@ -291,7 +291,9 @@ impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::StepBudget { steps } => write!(f, "more than {steps} transitions at one instant"),
-            Self::NotStopped { .. } => f.write_str("the driver answered neither a cancel nor a safe stop"),
+            Self::NotStopped { .. } => {
+                f.write_str("the driver confirmed neither a cancel nor a safe stop; the robot may still move")
+            }
             Self::Stalled => f.write_str("nothing is left to wait for, but the policy has not ended"),
         }
     }

@@ -57,6 +57,9 @@ pub enum DriverEvent {
     Lost { goal: GoalId },
     /// The driver itself is gone or speaks nonsense: every goal that is live is lost.
     DriverLost,
+    /// The driver is gone for good: nobody will ever acknowledge a safe stop. The run ends with
+    /// [`crate::Fault::NotStopped`] if a goal is live.
+    DriverGone,
     /// An answer to an observation or a watch, or something noticed in passing. It is true at the event's
     /// time.
     Observed { query: Query, answer: Answer },
@@ -74,7 +77,7 @@ impl DriverEvent {
             | Self::Feedback { goal, .. }
             | Self::Stopped { goal }
             | Self::Lost { goal } => Some(*goal),
-            Self::DriverLost | Self::Observed { .. } => None,
+            Self::DriverLost | Self::DriverGone | Self::Observed { .. } => None,
         }
     }
 }
@@ -102,6 +105,7 @@ impl fmt::Display for DriverEvent {
             Self::Stopped { goal } => write!(f, "stopped {goal}"),
             Self::Lost { goal } => write!(f, "lost {goal}"),
             Self::DriverLost => f.write_str("driver lost"),
+            Self::DriverGone => f.write_str("driver gone"),
             Self::Observed { query, answer } => write!(f, "observed {query} = {answer}"),
         }
     }

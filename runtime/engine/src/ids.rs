@@ -16,6 +16,9 @@ pub(crate) const SLOT_BITS: u32 = 24;
 pub struct GoalId(pub(crate) u64);
 
 impl GoalId {
+    /// Id of the first start of a run; no engine hands out a lower one.
+    pub const FIRST: Self = Self(1 << SLOT_BITS);
+
     /// The id as a number, for a protocol or a log.
     #[must_use]
     pub const fn number(self) -> u64 {
@@ -30,9 +33,12 @@ impl GoalId {
 }
 
 impl fmt::Display for GoalId {
-    /// Writes the running number of the start, from 1.
+    /// Writes the running number of the start, from 1; the whole number of an id that no engine hands out.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "#{}", self.0 >> SLOT_BITS)
+        match self.0 >> SLOT_BITS {
+            0 => write!(f, "{}", self.0),
+            start => write!(f, "#{start}"),
+        }
     }
 }
 

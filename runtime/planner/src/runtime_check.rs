@@ -182,7 +182,8 @@ impl RunTracker {
             DriverEvent::Observed { .. }
             | DriverEvent::Acknowledged { .. }
             | DriverEvent::Feedback { .. } => {}
-            DriverEvent::NotHeld { .. } | DriverEvent::Lost { .. } | DriverEvent::DriverLost => {}
+            DriverEvent::NotHeld { .. } | DriverEvent::Lost { .. } => {}
+            DriverEvent::DriverLost | DriverEvent::DriverGone => {}
         }
     }
 

@@ -379,7 +379,7 @@ impl DriverBench {
                 said.ended = true;
             }
             DriverEvent::NotHeld { .. } | DriverEvent::Feedback { .. } | DriverEvent::Lost { .. } => {}
-            DriverEvent::DriverLost | DriverEvent::Observed { .. } => {}
+            DriverEvent::DriverLost | DriverEvent::DriverGone | DriverEvent::Observed { .. } => {}
         }
         if before.ended && !is_stop {
             let law = if is_end { Law::EndsOnce } else { Law::SilentAfterEnd };
@@ -402,7 +402,7 @@ pub(super) const fn of(event: &DriverEvent) -> Option<GoalId> {
         | DriverEvent::Feedback { goal, .. }
         | DriverEvent::Stopped { goal }
         | DriverEvent::Lost { goal } => Some(*goal),
-        DriverEvent::DriverLost | DriverEvent::Observed { .. } => None,
+        DriverEvent::DriverLost | DriverEvent::DriverGone | DriverEvent::Observed { .. } => None,
     }
 }
 
@@ -416,7 +416,8 @@ pub(super) fn ends(event: &DriverEvent, goal: GoalId) -> bool {
     let is_end = match event {
         DriverEvent::Ended { .. } | DriverEvent::Stopped { .. } | DriverEvent::Refused { .. } => true,
         DriverEvent::Acknowledged { .. } | DriverEvent::NotHeld { .. } | DriverEvent::Lost { .. } => false,
-        DriverEvent::Feedback { .. } | DriverEvent::DriverLost | DriverEvent::Observed { .. } => false,
+        DriverEvent::DriverLost | DriverEvent::DriverGone => false,
+        DriverEvent::Feedback { .. } | DriverEvent::Observed { .. } => false,
     };
     is_end && of(event) == Some(goal)
 }

@@ -91,7 +91,8 @@ impl Observer for EngineGuarantees {
             | DriverEvent::Stopped { goal } => {
                 self.live.remove(goal);
             }
-            DriverEvent::NotHeld { .. } | DriverEvent::Lost { .. } | DriverEvent::DriverLost => {}
+            DriverEvent::DriverLost | DriverEvent::DriverGone => {}
+            DriverEvent::NotHeld { .. } | DriverEvent::Lost { .. } => {}
             DriverEvent::Feedback { .. } | DriverEvent::Observed { .. } => {}
         }
     }

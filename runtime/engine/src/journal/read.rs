@@ -237,7 +237,7 @@ impl OpenGoals {
             DriverEvent::NotHeld { goal } => self.with(*goal, |open| open.told = None),
             DriverEvent::Observed { query, .. } => self.observations.retain(|asked| asked != query),
             DriverEvent::Acknowledged { .. } | DriverEvent::Feedback { .. } => {}
-            DriverEvent::Lost { .. } | DriverEvent::DriverLost => {}
+            DriverEvent::Lost { .. } | DriverEvent::DriverLost | DriverEvent::DriverGone => {}
         }
     }
 

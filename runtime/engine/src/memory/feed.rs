@@ -43,7 +43,7 @@ impl Memory {
             | DriverEvent::Acknowledged { .. }
             | DriverEvent::NotHeld { .. } => {}
             DriverEvent::Stopped { .. } | DriverEvent::Lost { .. } | DriverEvent::DriverLost => {}
-            DriverEvent::Feedback { .. } | DriverEvent::Observed { .. } => {}
+            DriverEvent::DriverGone | DriverEvent::Feedback { .. } | DriverEvent::Observed { .. } => {}
         }
     }
 

@@ -52,6 +52,7 @@ impl Turn<'_> {
                 (0..self.run.orphans.len()).for_each(|index| self.orphan_lost(index));
                 self.run.goals.live().into_iter().for_each(|(goal, _)| self.lost(goal));
             }
+            DriverEvent::DriverGone => self.gone(),
             DriverEvent::NotHeld { goal } => {
                 if let Some(node) = self.run.goals.node(goal)
                     && self.run.nodes.at(node.index()).phase == Phase::Held
@@ -135,6 +136,16 @@ impl Turn<'_> {
         state.wish = stronger(state.wish, GoalIntent::Lose);
         if state.phase != Phase::SafeStopping {
             self.stop_safely(node, goal);
+        }
+    }
+
+    /// Nobody will ever say that what is live stands still.
+    fn gone(&mut self) {
+        let (live, revision) = (self.run.goals.live(), self.run.revision);
+        let own = live.first().map(|(_, node)| (*node, revision));
+        let orphan = self.run.orphans.first().map(|orphan| (orphan.node, orphan.revision));
+        if let Some((node, revision)) = own.or(orphan) {
+            self.fault(Fault::NotStopped { node, revision });
         }
     }
 

@@ -169,7 +169,8 @@ impl Turn<'_> {
                 self.orphan_lost(index);
                 None
             }
-            DriverEvent::NotHeld { .. } | DriverEvent::Feedback { .. } | DriverEvent::Observed { .. } => None,
+            DriverEvent::NotHeld { .. } | DriverEvent::Feedback { .. } => None,
+            DriverEvent::DriverGone | DriverEvent::Observed { .. } => None,
         };
         if let Some((ending, cause)) = end {
             self.orphan_ended(index, ending, cause);

@@ -3,7 +3,7 @@
 
 use crate::check;
 use crate::script::Feed::{
-    Ack, Done, DriverLost, Fails, Gives, Interrupted, Lost, NotHeld, Refused, Stop, Stopped, Tick,
+    Ack, Done, DriverGone, DriverLost, Fails, Gives, Interrupted, Lost, NotHeld, Refused, Stop, Stopped, Tick,
 };
 use crate::script::{at, entity, holding, holding_any, transcript_from, transcript_of};
 use motet_graph::Value;
@@ -228,6 +228,15 @@ fn call_lost_goal_is_stopped_safely_and_fails() {
 fn call_lost_driver_loses_every_goal() {
     let both = StepSketch::Parallel(vec![vec![StepSketch::go("table")], vec![StepSketch::detect("mug")]]);
     check!([both], [(0.1, Ack(1)), (1.0, DriverLost), (1.5, Stopped(2)), (1.6, Stopped(1))]);
+}
+
+#[test]
+fn call_driver_that_is_gone_for_good_ends_a_run_in_which_something_may_move() {
+    let both = StepSketch::Parallel(vec![vec![StepSketch::go("table")], vec![StepSketch::detect("mug")]]);
+    // The second goal was not told to stop yet.
+    check!([both], [(0.1, Ack(1)), (1.0, Lost(1)), (1.2, DriverGone), (1.3, DriverGone)]);
+    // Where nothing is live, the next step tries to reach it.
+    check!([StepSketch::Delay(1.0), StepSketch::go("table")], [(0.5, DriverGone), (1.0, Tick)]);
 }
 
 #[test]

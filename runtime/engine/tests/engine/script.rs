@@ -21,6 +21,7 @@ pub(crate) enum Feed {
     NotHeld(u32),
     Lost(u32),
     DriverLost,
+    DriverGone,
     See(Query, Answer),
     Tick,
     Stop,
@@ -64,6 +65,7 @@ pub(crate) fn transcript_from(graph: Graph, start: &StartState, script: Vec<(f64
             Feed::NotHeld(number) => DriverEvent::NotHeld { goal: goal(number) },
             Feed::Lost(number) => DriverEvent::Lost { goal: goal(number) },
             Feed::DriverLost => DriverEvent::DriverLost,
+            Feed::DriverGone => DriverEvent::DriverGone,
             Feed::See(query, answer) => DriverEvent::Observed { query, answer },
             Feed::Tick => {
                 step(&mut engine, at, Event::Tick, "tick", &mut goals, &mut text);

@@ -83,6 +83,7 @@ fn driver_event() -> impl Strategy<Value = DriverEvent> {
         goal().prop_map(|goal| DriverEvent::Stopped { goal }),
         goal().prop_map(|goal| DriverEvent::Lost { goal }),
         Just(DriverEvent::DriverLost),
+        Just(DriverEvent::DriverGone),
         (query(), answer).prop_map(|(query, answer)| DriverEvent::Observed { query, answer }),
     ]
 }
@@ -250,6 +251,7 @@ fn wire_form_keeps_its_bytes() {
         driver(DriverEvent::Stopped { goal }),
         driver(DriverEvent::Lost { goal }),
         driver(DriverEvent::DriverLost),
+        driver(DriverEvent::DriverGone),
         driver(DriverEvent::Observed { query: fact.clone(), answer: Answer::Truth(true) }),
         driver(DriverEvent::Observed { query: measure, answer: Answer::Unknown }),
         driver(DriverEvent::Observed { query: field, answer: Answer::Value(Value::Number(0.5)) }),

@@ -138,6 +138,11 @@ pub(super) enum Route {
 }
 
 impl Route {
+    /// True for a port, where another process may listen later.
+    pub(super) const fn is_port(&self) -> bool {
+        matches!(self, Self::Address(DriverAddress::Tcp(_)))
+    }
+
     /// Starts or calls the driver.
     pub(super) fn open(&mut self, within: Duration, keep_alive: KeepAlive) -> Result<Link, LinkError> {
         match self {

@@ -42,6 +42,7 @@ const MOST_BREACHES: u32 = 20;
 /// A driver that ends, is silent, floods or says what is no message is spoken with no more, and
 /// [`DriverEvent::DriverLost`] is reported. The next start or safe stop starts or calls it again, a few
 /// times; these calls then wait for its greeting. What it used is safe once it has answered the safe stop.
+/// Where it is called no more, [`DriverEvent::DriverGone`] is the answer to a safe stop.
 pub struct RemoteDriver {
     route: Route,
     patience: DriverTimeouts,
@@ -61,6 +62,8 @@ pub struct RemoteDriver {
     rate: LineRate,
     said_at: Instant,
     restarts: u32,
+    /// Time from which it is called again, for what may still move.
+    call_at: Instant,
     last: Time,
     log: Box<dyn DriverLog>,
 }
@@ -136,6 +139,7 @@ impl RemoteDriver {
             rate: LineRate::default(),
             said_at: Instant::now(),
             restarts: patience.restarts,
+            call_at: Instant::now(),
             last: from,
             log,
         };
@@ -273,6 +277,19 @@ impl RemoteDriver {
             self.call(DriverCall::SafeStop(GoalParams { goal }));
         }
         self.link.is_some()
+    }
+
+    /// Sees to it that somebody stops what may still move, and reports it where nobody ever will.
+    fn reach_to_stop(&mut self) -> bool {
+        let is_reached = self.reach();
+        if !is_reached && self.restarts == 0 {
+            self.goals.stopping.clear();
+            self.report(DriverEvent::DriverGone);
+        } else if !is_reached && self.route.is_port() {
+            // Whoever listens there may be starting anew.
+            self.call_at = Instant::now() + self.patience.answer;
+        }
+        is_reached
     }
 
     fn id(&self) -> u64 {

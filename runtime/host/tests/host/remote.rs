@@ -6,7 +6,7 @@ use motet_graph::arbitrary::{StepSketch, graph};
 use motet_host::remote::protocol::{CalledPrimitive, Hello};
 use motet_host::remote::{DriverAddress, DriverLog, DriverTimeouts, LineFrom, LinkError, RemoteDriver};
 use motet_runtime::{
-    Answer, Command, Detection, Driver, DriverClock, DriverEvent, Engine, Event, GoalId, Heard, Moved,
+    Answer, Command, Detection, Driver, DriverClock, DriverEvent, Engine, Event, Fault, GoalId, Heard, Moved,
     Observer, Outcome, Query, RunEnd, StartState, Time, ToldThing, run,
 };
 use serde_json::{Value, json};
@@ -142,6 +142,30 @@ fn remote_driver_greets_again_with_the_same_run() {
 }
 
 #[test]
+fn remote_driver_that_is_gone_for_good_is_not_waited_for() {
+    // The port is closed once it has greeted; it is called again with a pause each time.
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let address = format!("tcp://{}", listener.local_addr().unwrap());
+    let greeting = thread::spawn(move || {
+        let (mut stream, _) = listener.accept().unwrap();
+        let mut line = String::new();
+        BufReader::new(stream.try_clone().unwrap()).read_line(&mut line).unwrap();
+        let call = serde_json::from_str(&line).unwrap();
+        stream.write_all(format!("{}\n", welcome(&call, json!({}))).as_bytes()).unwrap();
+    });
+    let (mut driver, told) = connect(address.parse().unwrap()).unwrap();
+    greeting.join().unwrap();
+    let mut engine = Engine::new(graph(&[StepSketch::go("table")]), &StartState::default()).unwrap();
+    let begun = std::time::Instant::now();
+    let end = run(&mut engine, &mut driver, &mut (), Time::ZERO);
+    assert!(matches!(end, RunEnd::Fault(Fault::NotStopped { .. })), "{end:?}");
+    // Two pauses of 2 s, and not the 5 s within which a safe stop has to be acknowledged.
+    assert!((3.5..4.9).contains(&begun.elapsed().as_secs_f64()), "{:?}", begun.elapsed());
+    let calls = told.notes.borrow().iter().filter(|note| note.contains("calling the driver again")).count();
+    assert_eq!(calls, 3, "{:?}", told.notes);
+}
+
+#[test]
 fn remote_driver_drops_and_tells_reports_about_goals_that_do_not_run() {
     let address = driver(Box::new(|call| match call["method"].as_str().unwrap() {
         "hello" => vec![welcome(call, json!({}))],
@@ -176,8 +200,8 @@ fn remote_driver_drops_and_tells_reports_about_goals_that_do_not_run() {
     let expected = [
         "`go` failed with `melted`, which it does not declare; it declares blocked",
         "goal #1 has ended, it says, but it does not run",
-        "has ended, it says, but it does not run",
-        "is stopped, it says, but nobody asked for it",
+        "an unknown goal 77 has ended, it says, but it does not run",
+        "an unknown goal 77 is stopped, it says, but nobody asked for it",
     ];
     assert_eq!(breaches.len(), expected.len(), "{breaches:?}");
     for (breach, expected) in breaches.iter().zip(expected) {

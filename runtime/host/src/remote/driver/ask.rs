@@ -134,9 +134,10 @@ impl RemoteDriver {
             if now >= until {
                 return None;
             }
-            if self.link.is_none() && (self.goals.stopping.is_empty() || !self.reach()) {
+            if self.link.is_none() && (self.goals.stopping.is_empty() || !self.reach_to_stop()) {
                 // Nobody is there whose time could pass.
-                if let (RunTime::Own { now, .. }, true) = (&mut self.time, until != Time::NEVER) {
+                let passes = until != Time::NEVER && self.outbox.is_empty();
+                if let (RunTime::Own { now, .. }, true) = (&mut self.time, passes) {
                     *now = until;
                 }
                 return self.outbox.pop_front();

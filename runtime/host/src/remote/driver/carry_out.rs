@@ -74,7 +74,7 @@ impl Driver for RemoteDriver {
         let was_reached = self.link.is_some();
         self.goals.stopping.insert(goal);
         // Who is called again is told all that is to stop.
-        if self.reach() && was_reached {
+        if self.reach_to_stop() && was_reached {
             self.call(DriverCall::SafeStop(GoalParams { goal }));
         }
     }

@@ -17,6 +17,12 @@ const MOST_WORDS: usize = 256;
 /// The most lines that are heard before what they say is handed on.
 const BATCH: usize = 64;
 
+/// Goal of which a driver tells something, in words; its number may be any.
+fn told_goal(goal: GoalId) -> String {
+    let kind = if GoalId::FIRST <= goal { "goal" } else { "an unknown goal" };
+    format!("{kind} {goal}")
+}
+
 impl RemoteDriver {
     /// Hears what is said, for so long at most until something is.
     pub(super) fn listen(&mut self, within: Duration) {
@@ -61,7 +67,7 @@ impl RemoteDriver {
             DriverReport::Ended(ended) => {
                 let (goal, outcome) = (ended.goal, self.named(ended.outcome));
                 let Some(primitive) = self.goals.ended(goal) else {
-                    return self.breach(&format!("goal {goal} has ended, it says, but it does not run"));
+                    return self.idle(goal, "has ended");
                 };
                 if let Outcome::Failure(failure) = &outcome
                     && let Some(told) = self.goals.undeclared(&primitive, failure)
@@ -79,7 +85,8 @@ impl RemoteDriver {
                 if self.goals.stopped(goal) {
                     self.report(DriverEvent::Stopped { goal });
                 } else {
-                    self.breach(&format!("goal {goal} is stopped, it says, but nobody asked for it"));
+                    let goal = told_goal(goal);
+                    self.breach(&format!("{goal} is stopped, it says, but nobody asked for it"));
                 }
             }
             DriverReport::Lost(GoalParams { goal }) => {
@@ -119,9 +126,14 @@ impl RemoteDriver {
     fn runs(&mut self, goal: GoalId, says: &str) -> bool {
         let is_live = self.goals.is_live(goal);
         if !is_live {
-            self.breach(&format!("goal {goal} {says}, it says, but it does not run"));
+            self.idle(goal, says);
         }
         is_live
+    }
+
+    /// Tells a report about a goal that does not run.
+    fn idle(&mut self, goal: GoalId, says: &str) {
+        self.breach(&format!("{} {says}, it says, but it does not run", told_goal(goal)));
     }
 
     /// The failure kind that a driver names: a name of at most [`MAX_KIND_BYTES`]. Anything else is `failed`,
@@ -212,8 +224,8 @@ impl RemoteDriver {
     pub(super) fn tend(&mut self) {
         if self.link.is_none() {
             // What may still move is to be stopped, whoever has to be called for it.
-            if !self.goals.stopping.is_empty() {
-                self.reach();
+            if !self.goals.stopping.is_empty() && self.call_at <= Instant::now() {
+                self.reach_to_stop();
             }
             return;
         }
