@@ -6,7 +6,8 @@
 use std::sync::Arc;
 
 use motet_graph::Graph;
-use motet_syntax::ast::{Item, MAX_MISTAKES, Policy};
+use motet_syntax::ast::{Item, Policy};
+use motet_syntax::effort::ErrorCount;
 use motet_syntax::{Diagnostic, Parsed, Related, Severity, Span};
 use smol_str::SmolStr;
 
@@ -140,15 +141,14 @@ impl Session {
         let (mut findings, mut policies, mut left) = (Vec::new(), Vec::new(), Vec::new());
         self.within(parsed, &mut diagnostics, |library, environment, diagnostics| {
             let is_refused = diagnostics.iter().any(is_error);
-            let mut budget = ErrorBudget::default();
+            let mut errors = ErrorCount::default();
             for policy in parsed.file.policies().take(MAX_DECLARATIONS) {
-                if !budget.is_left() {
+                if is_too_many(&mut errors, &findings) {
                     break;
                 }
                 let mut analysis =
                     self.analyse(policy, parsed, library, environment, self.geometry.as_deref());
                 each(&analysis, library, environment);
-                budget.spend(&analysis.findings);
                 findings.append(&mut analysis.findings);
                 if policy.params.is_empty() {
                     left.extend(analysis.deferred_notes(policy, parsed, library, environment));
@@ -223,14 +223,12 @@ impl Session {
         let mut diagnostics = parsed.diagnostics.clone();
         let mut findings = Vec::new();
         self.within(parsed, &mut diagnostics, |library, environment, _| {
-            let mut budget = ErrorBudget::default();
+            let mut errors = ErrorCount::default();
             for policy in parsed.file.policies().take(MAX_DECLARATIONS) {
-                if !budget.is_left() {
+                if is_too_many(&mut errors, &findings) {
                     break;
                 }
-                let found = self.analyse(policy, parsed, library, environment, geometry).findings;
-                budget.spend(&found);
-                findings.extend(found);
+                findings.extend(self.analyse(policy, parsed, library, environment, geometry).findings);
             }
         });
         findings.extend(diagnostics.into_iter().map(Finding::from));
@@ -465,24 +463,9 @@ fn call_site(span: Span, policy: &Policy, program: &Program) -> Option<Span> {
     matches!(step.kind, StepKind::Inline { .. }).then_some(step.span)
 }
 
-/// Number of errors that may still be told of a document, in whose policies they are looked for.
-struct ErrorBudget(usize);
-
-impl Default for ErrorBudget {
-    fn default() -> Self {
-        Self(MAX_MISTAKES + 1)
-    }
-}
-
-impl ErrorBudget {
-    fn is_left(&self) -> bool {
-        self.0 > 0
-    }
-
-    fn spend(&mut self, findings: &[Finding]) {
-        let errors = findings.iter().filter(|found| is_error(&found.diagnostic)).count();
-        self.0 = self.0.saturating_sub(errors);
-    }
+/// Returns whether findings have more errors than are told.
+fn is_too_many(errors: &mut ErrorCount, findings: &[Finding]) -> bool {
+    errors.is_too_many(findings.iter().map(|found| &found.diagnostic))
 }
 
 /// The diagnostics of findings, without the errors that are too many.

@@ -1,9 +1,10 @@
 //! Elaboration of terms: value and type together, since the type that is expected decides how a plain string
 //! of the JSON syntax is read.
 
-use motet_syntax::ast::{Expr, ExprKind, MAX_MISTAKES, Name};
+use motet_syntax::ast::{Expr, ExprKind, Name};
+use motet_syntax::effort::ErrorCount;
 use motet_syntax::unit::{Dimension, Unit};
-use motet_syntax::{About, Diagnostic, Severity, Span, Syntax};
+use motet_syntax::{About, Diagnostic, Span, Syntax};
 use rustc_hash::{FxHashMap, FxHashSet};
 use smol_str::{SmolStr, format_smolstr};
 
@@ -32,8 +33,7 @@ pub(crate) struct Elaborator<'a> {
     /// True behind a step that could not be read, which may have bound any name.
     pub(crate) is_behind_gap: bool,
     pub(crate) diagnostics: Vec<Diagnostic>,
-    /// Number of the diagnostics that were counted, and of the errors among them.
-    pub(crate) counted: (usize, usize),
+    pub(crate) errors: ErrorCount,
 }
 
 /// Expectation at the place of a value: its type and, for messages, its role.
@@ -87,17 +87,13 @@ impl<'a> Elaborator<'a> {
             unbound_told,
             is_behind_gap,
             diagnostics,
-            counted: (0, 0),
+            errors: ErrorCount::default(),
         }
     }
 
     /// Returns whether there are more errors than are told.
     pub(crate) fn has_too_many_errors(&mut self) -> bool {
-        let (seen, errors) = &mut self.counted;
-        let more = self.diagnostics.iter().skip(*seen);
-        *errors += more.filter(|found| found.severity == Severity::Error).count();
-        *seen = self.diagnostics.len();
-        *errors > MAX_MISTAKES
+        self.errors.is_too_many(self.diagnostics.iter())
     }
 
     pub(crate) fn report(&mut self, mistake: impl Into<Diagnostic>) {

@@ -22,8 +22,8 @@ pub(crate) mod suspended;
 pub(crate) mod symbols;
 pub(crate) mod test_outcomes;
 
-use motet_syntax::ast::MAX_MISTAKES;
-use motet_syntax::{Diagnostic, Severity, Span};
+use motet_syntax::effort::ErrorCount;
+use motet_syntax::{Diagnostic, Span};
 use rustc_hash::{FxHashMap, FxHashSet};
 use smallvec::SmallVec;
 
@@ -202,8 +202,7 @@ pub(crate) struct Control {
     work: usize,
     /// The step at which the proof was given up.
     given_up: Option<StepId>,
-    /// Number of the diagnostics that were counted, and of the errors among them.
-    counted: (usize, usize),
+    errors: ErrorCount,
 }
 
 /// Purpose of a proof.
@@ -346,12 +345,7 @@ impl<'a> Prover<'a> {
 
     /// Returns whether there are more errors than are told.
     fn has_too_many_errors(&mut self) -> bool {
-        let (seen, errors) = self.control.counted;
-        let known = if seen > self.diagnostics.len() { (0, 0) } else { (seen, errors) };
-        let more = self.diagnostics.iter().skip(known.0);
-        let errors = known.1 + more.filter(|found| found.severity == Severity::Error).count();
-        self.control.counted = (self.diagnostics.len(), errors);
-        errors > MAX_MISTAKES
+        self.control.errors.is_too_many(self.diagnostics.iter())
     }
 
     /// Adds a diagnostic that a path before this one may have found.

@@ -113,10 +113,10 @@ impl StepResolver<'_> {
 
     /// Marks the names in the arguments of an unknown callee as used, without reports.
     fn use_names(&mut self, expr: &Expr) {
-        let (said, counted) = (self.elaborator.diagnostics.len(), self.elaborator.counted);
+        let (said, errors) = (self.elaborator.diagnostics.len(), self.elaborator.errors);
         self.elaborator.term(expr, None);
         self.elaborator.diagnostics.truncate(said);
-        self.elaborator.counted = counted;
+        self.elaborator.errors = errors;
     }
 
     fn primitive(

@@ -6,6 +6,7 @@ pub mod arbitrary;
 pub mod ast;
 pub mod diagnostic;
 pub mod diagnostics;
+pub mod effort;
 mod foreign_json;
 mod format;
 pub mod json;

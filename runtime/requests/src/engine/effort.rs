@@ -2,54 +2,31 @@
 //! part of it; the rules of a long clause without a comma would otherwise take time with the third power of
 //! its length.
 
-use std::cell::Cell;
+use motet_syntax::effort::Effort;
 
 /// Most steps of one reading. A step is a look-up of a list, a noun, or a part of a rule.
 pub(crate) const MAX_STEPS: u32 = 3_000_000;
 
 thread_local! {
-    /// Steps that are left to the reading of this thread; `None` outside of a reading.
-    static LEFT: Cell<Option<u32>> = const { Cell::new(None) };
+    /// Bound of the reading of this thread.
+    static EFFORT: Effort = const { Effort::new() };
 }
 
-/// End of a reading, also where it panics.
-struct ReadingEnd;
-
-impl Drop for ReadingEnd {
-    fn drop(&mut self) {
-        LEFT.set(None);
-    }
-}
-
-/// Reads within the bound; `None` if the reading used it up, and what it found is not to be relied on. A
-/// reading inside another shares its bound.
+/// Reads within the bound; `None` if the reading used it up. A reading inside another shares its bound.
 pub(crate) fn bounded<T>(read: impl FnOnce() -> T) -> Option<T> {
-    if LEFT.get().is_some() {
-        return Some(read());
-    }
-    LEFT.set(Some(MAX_STEPS));
-    let reading = ReadingEnd;
-    let found = read();
-    let found = (!is_used_up()).then_some(found);
-    drop(reading);
-    found
+    let read = |effort: &Effort| Some(read()).filter(|_| !effort.is_used_up());
+    EFFORT.with(|effort| effort.bounded(MAX_STEPS.into(), || read(effort)))
 }
 
 /// True once the bound is used up.
 pub(crate) fn is_used_up() -> bool {
-    LEFT.get() == Some(0)
+    EFFORT.with(Effort::is_used_up)
 }
 
 /// Takes a step. False once the bound is used up: nothing more is found then.
 pub(crate) fn step() -> bool {
-    match LEFT.get() {
-        None => true,
-        Some(0) => false,
-        Some(left) => {
-            LEFT.set(Some(left - 1));
-            left > 1
-        }
-    }
+    EFFORT.with(|effort| effort.spend(1));
+    !is_used_up()
 }
 
 #[cfg(test)]
