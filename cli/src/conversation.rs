@@ -68,7 +68,7 @@ pub(crate) fn converse(
     };
     let mut planner = planner::planner(args, ready.speed, colors, record.clone())?;
     catch_interrupts()?;
-    let ReadyDriver { mut driver, eyes, clock, speed, settings, .. } = ready;
+    let ReadyDriver { mut driver, eyes, saved, clock, speed, settings } = ready;
     let mut talk = Conversation::new(&setting).with_runs(&run, settings, args.on_instruction.into());
     talk.tell(opened.told_facts());
     let mut asking;
@@ -97,6 +97,9 @@ pub(crate) fn converse(
     let mut observer =
         RunObserver::new(args, colors, (clock, speed), Rc::clone(&operator), record).with_task(task);
     observer.page.clone_from(&page);
+    // What a model saw in pictures is in no journal.
+    let saved = saved.filter(|_| !args.model.camera);
+    observer.driver = saved.map(|saved| saved.with_person(args.driver.answers.is_none()));
     let mut now = Time::ZERO;
     let mut exit = Exit::Success;
     let mut next = request.map(ToOwned::to_owned);

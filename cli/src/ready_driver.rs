@@ -24,7 +24,7 @@ use crate::runner::connect;
 pub(crate) struct ReadyDriver {
     pub(crate) driver: Box<dyn Driver>,
     pub(crate) eyes: DriverCamera,
-    /// Description for the journal of a run; `None` where no policy was given.
+    /// Description for the journal of a run that begins now; `None` if its simulator cannot be described.
     pub(crate) saved: Option<SavedDriver>,
     pub(crate) clock: Clock,
     pub(crate) speed: Speed,
@@ -85,7 +85,10 @@ fn kinematic(
         None => {
             inputs.check_names(&opened.session.signatures())?;
             let options = inputs.without_policy().with_facts(opened.told_facts());
-            (Sim::new(robot, &opened.scene.clone().unwrap_or_default(), options), None)
+            let (text, project) = (opened.scene_text.clone(), SavedProject::of(opened));
+            let saved = opened.files.as_ref();
+            let saved = saved.map(|files| SavedDriver::simulator(files, text, &options, project));
+            (Sim::new(robot, &opened.scene.clone().unwrap_or_default(), options), saved)
         }
     };
     let simulator = Rc::new(RefCell::new(simulator));
@@ -128,12 +131,11 @@ fn remote(
     if has_state && !driver.capabilities().state {
         note("note: the driver does not take `--state`: only the check and the plans begin from it");
     }
-    let saved =
-        policy.map(|_| SavedDriver::process(address, &driver.welcome().instance, SavedProject::of(opened)));
+    let saved = SavedDriver::process(address, &driver.welcome().instance, SavedProject::of(opened));
     let settings = remote_settings();
     let driver = Rc::new(RefCell::new(driver));
     let eyes = DriverCamera::Process(Rc::clone(&driver));
-    Ok(ReadyDriver { driver: Box::new(driver), eyes, saved, clock, speed, settings })
+    Ok(ReadyDriver { driver: Box::new(driver), eyes, saved: Some(saved), clock, speed, settings })
 }
 
 /// Error of a run without a robot, or with one that is not built in.

@@ -10,6 +10,7 @@ use motet_planner::builtin::PlannedRequest;
 use motet_planner::dialogue::{DialogueObserver, Outcome, Problem, RunRecorder};
 use motet_planner::runtime_check::CheckMode;
 use motet_planner::vision::{GroundedPoint, GroundingDriver, GroundingTask};
+use motet_project::SavedDriver;
 use motet_robots::scene::Scene;
 use motet_runtime::{
     Driver, Effect, Engine, Event, Observer as _, Perception, RunControl, RunEnd, StartState, SwapRefusal,
@@ -43,6 +44,8 @@ pub(super) struct RunObserver<'a> {
     record: Option<ConversationRecord>,
     /// Page that shows the conversation.
     pub(super) page: Option<SharedPage>,
+    /// Driver as it is at the beginning, for journals; `None` where runs cannot be resumed.
+    pub(super) driver: Option<SavedDriver>,
     request: String,
     task: Rc<RefCell<GroundingTask>>,
     /// Scheduled requests, the latest first.
@@ -81,6 +84,7 @@ impl<'a> RunObserver<'a> {
             operator,
             record,
             page: None,
+            driver: None,
             request: String::new(),
             task: Rc::default(),
             scheduled,
@@ -172,7 +176,8 @@ impl DialogueObserver for RunObserver<'_> {
             return None;
         }
         let outputs = (self.record.clone(), self.page.clone());
-        Some(Box::new(RunJournal::new(outputs, (run, &self.request), engine, start)))
+        let named = (run, self.request.as_str());
+        Some(Box::new(RunJournal::new(outputs, named, self.driver.clone(), (engine, start))))
     }
 
     fn held(&mut self, is_held: bool) {

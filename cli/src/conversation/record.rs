@@ -10,6 +10,7 @@ use std::rc::Rc;
 use motet::run::journal_head;
 use motet_host::journal::{JournalWriter, RunRecorder};
 use motet_planner::dialogue::RunRecorder as DialogueRecorder;
+use motet_project::SavedDriver;
 use motet_runtime::journal::JournalHead;
 use motet_runtime::{Driver, Effect, Engine, Observer, RunControl, RunEnd, StartState, Time};
 use serde_json::{Value, json};
@@ -102,17 +103,18 @@ pub(super) struct RunJournal {
     record: Option<ConversationRecord>,
     page: Option<SharedPage>,
     head: JournalHead,
+    saved: Option<SavedDriver>,
 }
 
 impl RunJournal {
     pub(super) fn new(
         (record, page): (Option<ConversationRecord>, Option<SharedPage>),
         (run, request): (&str, &str),
-        engine: &Engine,
-        start: &StartState,
+        saved: Option<SavedDriver>,
+        (engine, start): (&Engine, &StartState),
     ) -> Self {
         let head = JournalHead { instruction: Some(request.to_owned()), ..journal_head(run, engine, start) };
-        Self { record, page, head }
+        Self { record, page, head, saved }
     }
 }
 
@@ -124,8 +126,11 @@ impl DialogueRecorder for RunJournal {
         onlooker: &mut dyn Observer,
         from: Time,
     ) -> RunEnd {
-        let Self { record, page, head } = *self;
-        let head = JournalHead { from, ..head };
+        let Self { record, page, head, saved } = *self;
+        // A simulator that runs before this one have changed cannot be opened again as it is.
+        let saved = saved.filter(|saved| from == Time::ZERO || !matches!(saved, SavedDriver::Simulator(_)));
+        let saved = saved.and_then(|saved| saved.to_json().ok()).unwrap_or_default();
+        let head = JournalHead { from, driver: saved, ..head };
         let mut shown;
         let onlooker: &mut dyn Observer = match page {
             Some(page) => {

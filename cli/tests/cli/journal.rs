@@ -1,11 +1,13 @@
 //! `motet run --record`, `motet replay` and `motet run --resume` from outside, also after a kill at a random
 //! moment.
 
-use crate::support::{GOOD, Place};
+use crate::driver::has_python;
+use crate::support::{GOOD, Place, eventually};
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng as _, SeedableRng as _};
 use serde_json::Value;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::{BufRead as _, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
@@ -112,6 +114,21 @@ fn run_that_was_killed_before_its_first_entry_is_begun_again() {
     place.run(again).check(2, &["err:`run` is not empty"]);
 }
 
+#[cfg(unix)]
+#[test]
+fn journal_that_is_as_large_as_a_file_may_be_ends_the_run_safely() {
+    let place = Place::new("journal_limit").file("good.motet", GOOD);
+    let line = "run good.motet --robot hsr --scene kitchen --speed max";
+    place.run(&format!("{line} --record whole")).check(0, &[]);
+    let whole = std::fs::read_to_string(journal(&place.path("whole"))).unwrap();
+    let head = whole.lines().next().unwrap().len();
+    let blocks = (head + whole.len()) / 2 / 512;
+    let shell = format!("ulimit -f {blocks}; {} {line} --record run", env!("CARGO_BIN_EXE_motet"));
+    place.shell(&shell).check(2, &["err:cannot write", "err:File too large"]);
+    place.run("run --resume run --speed max").check(0, &["out:✓ tidy: done", "err:cut off"]);
+    place.run("replay run").check(0, &["out:identical"]);
+}
+
 #[test]
 fn changed_journal_is_refused() {
     let place = Place::new("journal_changed").file("good.motet", GOOD);
@@ -131,26 +148,36 @@ fn crashes() -> u64 {
 
 #[test]
 fn killed_at_any_moment_a_run_goes_on_as_if_nothing_had_been() {
-    let place = Place::new("journal_crash").file("good.motet", GOOD);
-    let world = "good.motet --robot hsr --scene kitchen --speed 60";
+    kill_and_resume("journal_crash", "run good.motet --robot hsr --scene kitchen", "", 1.0);
+}
+
+#[test]
+fn killed_at_any_moment_the_run_of_a_request_goes_on_as_if_nothing_had_been() {
+    let line = "do bring~me~the~coke --robot hsr --scene kitchen --no-geometry --ask never";
+    kill_and_resume("journal_do_crash", line, "/run_1", 1.4);
+}
+
+/// Kills a recorded command at random moments of its time, so long as `longest` of it, and resumes the run,
+/// whose journal is in a folder of the record.
+fn kill_and_resume(name: &str, command: &str, inner: &str, longest: f64) {
+    let place = Place::new(name).file("good.motet", GOOD);
     let begun = Instant::now();
-    place.run(&format!("run {world} --record whole")).check(0, &[]);
+    place.run_args(&words(&format!("{command} --speed 60 --record whole"))).check(0, &[]);
     let span = begun.elapsed();
-    let expected = deeds(&place.path("whole"));
+    let expected = deeds(&place.path(&format!("whole{inner}")));
     let (mut kills, mut runs, mut dice) = (0, 0, SplitMix64::seed_from_u64(7));
     let mut late = 0;
     while kills < crashes() {
         runs += 1;
-        let folder = format!("run{runs}");
-        let mut line = format!("run {world} --format json --record {folder}");
+        let record = format!("run{runs}");
+        let folder = format!("{record}{inner}");
+        let mut line = format!("{command} --speed 60 --format json --record {record}");
         loop {
-            let delay = span.mul_f64((dice.next_u64() % 1_000) as f64 / 900.0);
+            let delay = span.mul_f64((dice.next_u64() % 1_000) as f64 / 900.0 * longest);
             let (was_killed, shown) = run_and_kill(&place, &line, delay);
             // The head may not have been written yet: then there is no run to go on with.
-            let begun = journal(&place.path(&folder)).exists()
-                && std::fs::read(journal(&place.path(&folder))).unwrap().contains(&b'\n');
             kills += u64::from(was_killed);
-            if !begun {
+            if !was_begun(&place, &folder) {
                 assert_eq!(shown, 0, "nothing goes out before the head is written");
                 break;
             }
@@ -173,6 +200,156 @@ fn killed_at_any_moment_a_run_goes_on_as_if_nothing_had_been() {
     println!("{kills} kills in {runs} runs, {late} of them ended by themselves");
 }
 
+/// Words of a command line; `~` is a blank within one.
+fn words(line: &str) -> Vec<String> {
+    line.split_whitespace().map(|word| word.replace('~', " ")).collect()
+}
+
+/// Driver that writes down what it begins and ends, and the process in which it does.
+fn logged_driver(place: &Place) -> String {
+    let drivers = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/drivers");
+    let text = format!(
+        "import os, sys, types\nsys.path.insert(0, {drivers:?})\nimport echo, motet\n\
+         def log(*words):\n\
+         \x20   with open('log', 'a') as file: print(os.getpid(), *words, file=file)\n\
+         class Logged(echo.Echo):\n\
+         \x20   async def perform(self, goal, **args):\n\
+         \x20       log('begins', goal.number)\n\
+         \x20       result = await super().perform(goal, **args)\n\
+         \x20       log('ends', goal.number)\n\
+         \x20       return result\n\
+         log('greets', 0)\n\
+         port = int(sys.argv[1]) if sys.argv[1:] else None\n\
+         motet.serve(Logged(types.SimpleNamespace(seconds=0.15, refuse=[], clock='wall')), port, 10.0)\n"
+    );
+    std::fs::write(place.path("logged.py"), text).unwrap();
+    "python3 logged.py".to_owned()
+}
+
+/// Lines of the log of a driver: process, what, and the goal.
+fn log(place: &Place) -> Vec<(u32, String, u64)> {
+    let text = std::fs::read_to_string(place.path("log")).unwrap_or_default();
+    let line = |line: &str| {
+        let mut words = line.split(' ');
+        let mut next = || words.next().unwrap_or_default().to_owned();
+        (next().parse().unwrap(), next(), next().parse().unwrap())
+    };
+    text.lines().map(line).collect()
+}
+
+/// No goal begins twice, and none while another goes on in the same process.
+fn begins_once(log: &[(u32, String, u64)]) {
+    let mut begun = BTreeSet::new();
+    let mut open = None;
+    for (process, what, goal) in log {
+        match what.as_str() {
+            "begins" => {
+                assert!(begun.insert(goal), "goal {goal} begins twice: {log:?}");
+                assert!(open.is_none_or(|(other, _)| other != process), "{goal} begins too early: {log:?}");
+                open = Some((process, goal));
+            }
+            "ends" => assert_eq!(open.take(), Some((process, goal)), "{log:?}"),
+            _ => {}
+        }
+    }
+}
+
+#[test]
+fn killed_driver_begins_nothing_twice() {
+    if !has_python() {
+        return;
+    }
+    let place = Place::new("journal_driver_crash").file("good.motet", GOOD);
+    let driver = logged_driver(&place);
+    let (mut dice, mut ended) = (SplitMix64::seed_from_u64(11), BTreeMap::<_, u32>::new());
+    for number in 0..crashes() {
+        let _ = std::fs::remove_file(place.path("log"));
+        let line = ["run", "good.motet", "--robot", "hsr", "--scene", "kitchen", "--driver", &driver];
+        let more = ["--record".to_owned(), format!("run{number}")];
+        let args: Vec<String> = line.map(str::to_owned).into_iter().chain(more).collect();
+        let child = Command::new(env!("CARGO_BIN_EXE_motet"))
+            .args(&args)
+            .current_dir(place.path(""))
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        assert!(eventually(|| !log(&place).is_empty()));
+        std::thread::sleep(Duration::from_millis(dice.next_u64() % 1_000));
+        let process = log(&place)[0].0.to_string();
+        Command::new("kill").args(["-9", &process]).status().unwrap();
+        let killed = Instant::now();
+        let output = child.wait_with_output().unwrap();
+        let code = output.status.code();
+        assert!(killed.elapsed().as_secs() < 15, "{:?}", killed.elapsed());
+        *ended.entry(code).or_default() += 1;
+        let shown = String::from_utf8_lossy(&output.stdout);
+        let is_clear = match code {
+            Some(0) => shown.contains("tidy: done"),
+            // The goal that was lost was stopped safely, and its step failed.
+            Some(3) => shown.contains("tidy: failed with"),
+            // It died before it had greeted.
+            Some(2) => String::from_utf8_lossy(&output.stderr).contains("the driver ended"),
+            _ => false,
+        };
+        assert!(is_clear, "{output:?}");
+        begins_once(&log(&place));
+        if code != Some(2) {
+            place.run(&format!("replay run{number}")).check(0, &["out:identical"]);
+        }
+    }
+    println!("{} kills of drivers, runs by their exit code: {ended:?}", crashes());
+}
+
+#[test]
+fn killed_host_of_a_driver_in_another_process_begins_nothing_twice_and_loses_nothing() {
+    if !has_python() {
+        return;
+    }
+    let place = Place::new("journal_host_crash").file("good.motet", GOOD);
+    logged_driver(&place);
+    let mut process = Command::new("python3")
+        .args(["logged.py", "0"])
+        .current_dir(place.path(""))
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut first = String::new();
+    BufReader::new(process.stdout.take().unwrap()).read_line(&mut first).unwrap();
+    let driver = first.trim().strip_prefix("listening on ").unwrap().to_owned();
+    let (mut kills, mut runs, mut dice) = (0, 0, SplitMix64::seed_from_u64(13));
+    while kills < crashes() {
+        runs += 1;
+        let _ = std::fs::remove_file(place.path("log"));
+        let is_request = runs % 2 == 0;
+        let command = if is_request { "do bring~me~the~coke --ask never" } else { "run good.motet" };
+        let world = "--robot hsr --scene kitchen --no-geometry";
+        let folder = if is_request { format!("run{runs}/run_1") } else { format!("run{runs}") };
+        let mut line = format!("{command} {world} --format json --driver {driver} --record run{runs}");
+        loop {
+            let delay = Duration::from_millis(dice.next_u64() % if is_request { 4_000 } else { 2_000 });
+            let (was_killed, _) = run_and_kill(&place, &line, delay);
+            kills += u64::from(was_killed);
+            if !was_killed || !was_begun(&place, &folder) {
+                break;
+            }
+            line = format!("run --resume {folder} --format json --driver {driver}");
+        }
+        if was_begun(&place, &folder) {
+            place.run(&format!("run --resume {folder} --driver {driver}")).check(0, &["out:: done"]);
+            place.run(&format!("replay {folder}")).check(0, &["out:identical"]);
+            once_each(&place.path(&folder));
+            let log = log(&place);
+            begins_once(&log);
+            let count = |what: &str| log.iter().filter(|(_, told, _)| told == what).count();
+            assert_eq!(count("begins"), count("ends"), "{log:?}");
+        }
+    }
+    println!("{kills} kills of hosts in {runs} runs");
+    process.kill().unwrap();
+    process.wait().unwrap();
+}
+
 fn was_begun(place: &Place, folder: &str) -> bool {
     std::fs::read(journal(&place.path(folder))).is_ok_and(|bytes| bytes.contains(&b'\n'))
 }
@@ -182,7 +359,7 @@ fn was_begun(place: &Place, folder: &str) -> bool {
 fn run_and_kill(place: &Place, line: &str, delay: Duration) -> (bool, usize) {
     let shown = place.path("shown.jsonl");
     let mut child = Command::new(env!("CARGO_BIN_EXE_motet"))
-        .args(line.split_whitespace())
+        .args(words(line))
         .current_dir(place.path(""))
         .stdout(std::fs::File::create(&shown).unwrap())
         .stderr(Stdio::null())
@@ -239,6 +416,7 @@ fn conversation_is_recorded_and_replays() {
     let world = "--robot hsr --scene kitchen";
     place.run(&format!("view talk -o talk.html {world}")).check(0, &["err:wrote"]);
     assert!(place.read("talk.html").contains(r#""t":"moved""#), "the page shows the motion");
-    place.run(&format!("run --resume talk/{run}")).check(2, &["err:can be replayed but not resumed"]);
+    // It is over; one that was cut off goes on.
+    place.run(&format!("run --resume talk/{run}")).check(0, &["err:the run is over"]);
     place.run_args(&words).check(2, &["err:talk.jsonl"]);
 }

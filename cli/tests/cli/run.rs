@@ -142,10 +142,10 @@ fn prints_events_a_line() {
 fn stops_where_nobody_reads() {
     let place = place("run_closed");
     let line = "run good.motet --scene kitchen --speed 50";
-    // `head` takes the first line and goes.
-    let shell = format!("{} {line} | head -n 1", env!("CARGO_BIN_EXE_motet"));
+    // `head` takes the first line and goes, and its status is that of the pipe.
+    let shell = format!("({} {line}; echo status $? >&2) | head -n 1", env!("CARGO_BIN_EXE_motet"));
     let ran = place.shell(&shell);
-    ran.check(0, &["out:go(kitchen_table)"]);
+    ran.check(0, &["out:go(kitchen_table)", "err:status 130"]);
     assert!(!ran.stderr.contains("panicked"), "{ran:#?}");
 }
 
