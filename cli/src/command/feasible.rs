@@ -18,7 +18,8 @@ use crate::report::{Progress, Report};
     motet feasible --robot hsr --scene kitchen --for 'reach(mug_1)'\n  \
     motet feasible --robot hsr --scene kitchen --for 'reach(coke, top)' --svg coke.svg\n  \
     motet feasible --robot hsr --scene kitchen --all --format json\n\n\
-    A motion is go_to(ENTITY), reach(OBJECT), reach(OBJECT, top|side|front), put(OBJECT, ENTITY),\n\
+    A motion is go_to(ENTITY), reach(OBJECT), reach(OBJECT, top|side|front),\n\
+    reach_at(OBJECT, pose(1.9 m, 0.3 m, 0.8 m, 0 deg)), put(OBJECT, ENTITY),\n\
     offer(OBJECT, PERSON), pull(CONTAINER), push(ENTITY), look(ENTITY), posture(NAME) or\n\
     stand_at(pose(1.2 m, 0.5 m, 90 deg)). A place has rules: put(OBJECT, ENTITY, near: ENTITY),\n\
     and likewise beside: ENTITY, away_from_edge: 10 cm, upright: false, at: pose(…).\n\

@@ -115,6 +115,8 @@ refusals! {
     TooHeavy("M0604")
     /// Thing that is wider than the opening of the hand.
     TooWide("M0605")
+    /// Point of a grasp that is not at the thing.
+    Beside("M0610")
     /// Support without a free place as the step asks for one.
     NoPlace("M0607")
     /// Target that no camera can see.
@@ -142,7 +144,8 @@ impl MotionChecker<'_> {
             InfeasibleReason::NoPlace(_)
             | InfeasibleReason::OutOfReach { .. }
             | InfeasibleReason::TooHeavy { .. }
-            | InfeasibleReason::TooWide { .. } => None,
+            | InfeasibleReason::TooWide { .. }
+            | InfeasibleReason::Beside { .. } => None,
         };
         let rules = self.only_because_of(possible, query);
         let changed = culprit.and_then(|by| Some((by, possible.changer(by)?)));

@@ -18,13 +18,15 @@ pub(super) enum MotionArg {
     Pose(MapPose),
 }
 
-/// Motion query of a kind and arguments; one that is not computed where they do not fit the kind.
+/// Motion query of a kind and arguments, of which the pose of a grasp may be missing; one that is not computed where they do not fit the kind.
 pub(super) fn motion_query(kind: MotionKind, args: &[MotionArg], side: Option<GraspSide>) -> MotionQuery {
     use MotionArg::{Name, Pose};
     match (kind, args) {
         (MotionKind::GoTo, [Name(to)]) => MotionQuery::GoTo(to.clone()),
         (MotionKind::StandAt, [Pose(pose)]) => MotionQuery::StandAt(*pose),
         (MotionKind::Reach, [Name(object)]) => MotionQuery::Reach(object.clone(), side),
+        (MotionKind::ReachAt, [Name(object)]) => MotionQuery::ReachAt(object.clone(), None),
+        (MotionKind::ReachAt, [Name(object), Pose(at)]) => MotionQuery::ReachAt(object.clone(), Some(*at)),
         (MotionKind::Put, [Name(object), Name(on), options @ ..]) => match place_rules(on, options) {
             Some(rules) => MotionQuery::Put(object.clone(), on.clone(), rules),
             None => MotionQuery::Other(kind.name().into()),
@@ -87,8 +89,10 @@ pub(super) fn motion_effect(library: &Library, def: &PrimitiveDef, query: &Motio
         MotionQuery::GoTo(_) | MotionQuery::StandAt(_) | MotionQuery::Posture(_) => {
             MotionEffect::Changed(SceneChange::Gone)
         }
-        MotionQuery::Reach(..) if makes(items.holding, true) => MotionEffect::Changed(SceneChange::Taken),
-        MotionQuery::Reach(..) | MotionQuery::Look(_) => MotionEffect::Nothing,
+        MotionQuery::Reach(..) | MotionQuery::ReachAt(..) if makes(items.holding, true) => {
+            MotionEffect::Changed(SceneChange::Taken)
+        }
+        MotionQuery::Reach(..) | MotionQuery::ReachAt(..) | MotionQuery::Look(_) => MotionEffect::Nothing,
         MotionQuery::Put(..) if makes(items.holding, false) => MotionEffect::Changed(SceneChange::Put),
         MotionQuery::Offer(..) if makes(items.holding, false) => MotionEffect::Changed(SceneChange::Given),
         MotionQuery::Pull(_) if makes(items.open, true) => MotionEffect::Changed(SceneChange::Travelled),
@@ -134,6 +138,7 @@ pub(super) fn failures(library: &Library, reason: &InfeasibleReason) -> [Option<
         InfeasibleReason::NoFreePose { .. }
         | InfeasibleReason::BlockedPath { .. }
         | InfeasibleReason::NoPlace(_) => [items.unreachable, items.blocked, None],
+        InfeasibleReason::Beside { .. } => [items.not_found, items.unreachable, None],
         InfeasibleReason::NotInView { .. } => [items.unreachable, items.blocked, items.not_found],
     }
 }

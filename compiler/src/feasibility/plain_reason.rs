@@ -12,7 +12,8 @@ const HIGH_M: f64 = 1.2;
 /// Entity where a motion ends.
 pub(super) fn target(query: &MotionQuery) -> Option<&SmolStr> {
     match query {
-        MotionQuery::GoTo(id) | MotionQuery::Reach(id, _) | MotionQuery::Look(id) => Some(id),
+        MotionQuery::GoTo(id) | MotionQuery::Look(id) => Some(id),
+        MotionQuery::Reach(id, _) | MotionQuery::ReachAt(id, _) => Some(id),
         MotionQuery::Pull(id) | MotionQuery::Push(id) => Some(id),
         MotionQuery::Put(_, to, _) | MotionQuery::Offer(_, to) => Some(to),
         MotionQuery::StandAt(_) | MotionQuery::Posture(_) | MotionQuery::Other(_) => None,
@@ -51,6 +52,7 @@ pub(super) fn plain_reason(scene: &Scene, query: &MotionQuery, reason: &Infeasib
         InfeasibleReason::TooHeavy { needs, limit } => {
             format!("it weighs {needs:.1} kg, I carry {limit:.1} kg")
         }
+        InfeasibleReason::Beside { needs, .. } => format!("the point is {needs:.2} m beside it"),
         InfeasibleReason::TooWide { needs, limit } => {
             let [needs, limit] = [needs, limit].map(|length| length * 100.0);
             format!("it is {needs:.1} cm wide, my hand opens to {limit:.1} cm")

@@ -67,7 +67,8 @@ impl Geometry {
             | InfeasibleReason::NoPlace(_)
             | InfeasibleReason::BlockedPath { .. }
             | InfeasibleReason::TooHeavy { .. }
-            | InfeasibleReason::TooWide { .. } => false,
+            | InfeasibleReason::TooWide { .. }
+            | InfeasibleReason::Beside { .. } => false,
         };
         is_certain.then(|| match reason {
             InfeasibleReason::NotInView { by: Some(by), .. } => format!("`{by}` hides it from the camera"),

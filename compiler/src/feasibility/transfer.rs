@@ -17,7 +17,7 @@ use super::motion::{
 use super::verdict::MotionVerdict;
 use crate::analysis::{Domain, Enclosing};
 use crate::declare::PrimitiveDef;
-use crate::ir::{Call, Entity, ROBOT, START, StepId, Term};
+use crate::ir::{Call, Entity, MotionKind, ROBOT, START, StepId, Term};
 use crate::prove::NeedVerdict;
 
 impl MotionChecker<'_> {
@@ -210,7 +210,12 @@ impl MotionChecker<'_> {
     /// The reason why its arguments are unknown.
     pub(super) fn query(&self, call: &Call, def: &PrimitiveDef) -> Result<MotionQuery, SmolStr> {
         let Some((name, args)) = &def.motion else { return Err(SmolStr::new_static("it has no motion")) };
-        let args = args.iter().map(|arg| self.motion_arg(arg, call)).collect::<Result<Vec<_>, _>>()?;
+        let mut args: Vec<_> = args.iter().map(|arg| self.motion_arg(arg, call)).collect();
+        // What makes a thing impossible to grasp anywhere needs no point.
+        if *name == MotionKind::ReachAt {
+            args.truncate(1 + usize::from(args.get(1).is_some_and(Result::is_ok)));
+        }
+        let args = args.into_iter().collect::<Result<Vec<_>, _>>()?;
         Ok(motion_query(*name, &args, self.side(call)))
     }
 

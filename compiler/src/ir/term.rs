@@ -279,6 +279,7 @@ pub(crate) enum MotionKind {
     GoTo,
     StandAt,
     Reach,
+    ReachAt,
     Put,
     PutAt,
     Pull,
@@ -294,6 +295,7 @@ impl MotionKind {
         Self::GoTo,
         Self::StandAt,
         Self::Reach,
+        Self::ReachAt,
         Self::Put,
         Self::PutAt,
         Self::Pull,
@@ -309,6 +311,7 @@ impl MotionKind {
             Self::GoTo => "go_to",
             Self::StandAt => "stand_at",
             Self::Reach => "reach",
+            Self::ReachAt => "reach_at",
             Self::Put => "put",
             Self::PutAt => "put_at",
             Self::Pull => "pull",
@@ -328,7 +331,7 @@ impl MotionKind {
     pub(crate) const fn arity(self) -> usize {
         match self {
             Self::PutAt => 3,
-            Self::Put | Self::Offer => 2,
+            Self::ReachAt | Self::Put | Self::Offer => 2,
             Self::GoTo | Self::StandAt | Self::Reach | Self::Pull | Self::Push | Self::Look => 1,
             Self::Posture => 1,
         }
@@ -338,7 +341,7 @@ impl MotionKind {
     pub(crate) const fn options(self) -> &'static [&'static str] {
         match self {
             Self::Put => &["near", "beside", "away_from_edge", "upright"],
-            Self::GoTo | Self::StandAt | Self::Reach | Self::PutAt | Self::Pull => &[],
+            Self::GoTo | Self::StandAt | Self::Reach | Self::ReachAt | Self::PutAt | Self::Pull => &[],
             Self::Push | Self::Offer | Self::Look | Self::Posture => &[],
         }
     }

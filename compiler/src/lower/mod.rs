@@ -468,9 +468,8 @@ fn is_of_motion(need: &NeedDef, def: &PrimitiveDef, library: &Library) -> bool {
         return false;
     };
     library.fluent(fact.fluent).is_some_and(|def| def.derived)
-        && *motion == MotionKind::Reach
+        && matches!(motion, MotionKind::Reach | MotionKind::ReachAt)
         && need.when.is_none()
         && need.each.is_none()
-        && fact.args.len() == args.len()
-        && fact.args.iter().flatten().eq(args)
+        && fact.args.iter().map(Option::as_ref).eq(args.iter().take(1).map(Some))
 }

@@ -118,7 +118,8 @@ pub(crate) fn resolve_inlined(
 }
 
 /// Type-checks the arguments of a motion query as a call of a primitive with this motion would; empty if one
-/// of the robot's primitives accepts them. Checks only parameters of the primitive.
+/// of the robot's primitives accepts them. Checks only parameters of the primitive; the last arguments may be
+/// left out.
 pub(crate) fn check_motion(
     name: &str,
     args: &[(SmolStr, Span)],
@@ -129,7 +130,7 @@ pub(crate) fn check_motion(
     let mut least: Option<Vec<Diagnostic>> = None;
     for def in library.primitives.iter().filter(|def| def.provided) {
         let Some((_, terms)) =
-            def.motion.as_ref().filter(|(own, terms)| Some(*own) == kind && terms.len() == args.len())
+            def.motion.as_ref().filter(|(own, terms)| Some(*own) == kind && terms.len() >= args.len())
         else {
             continue;
         };

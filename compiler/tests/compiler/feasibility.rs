@@ -328,6 +328,34 @@ fn places_by_rules_and_poses_are_feasible_one_after_the_other() {
     assert_eq!(queries, ["stand_at", "reach", "put", "reach", "put", "reach", "put_at"]);
 }
 
+/// Policy that grasps the mug of the kitchen at a pose.
+fn grasped(at: &str) -> String {
+    format!("policy p for hsr {{ go(kitchen_table) inspect(mug_1) {at} go(counter) }}")
+}
+
+#[test]
+fn grasps_close_at_a_point_of_the_thing() {
+    let found = motions(&KITCHEN, &grasped("grasp(mug_1, pose(1.98 m, 0.33 m, 0.79 m, 0 deg))"));
+    let [_, _, (grasp, verdict, why), (_, then, _)] = &found[..] else { panic!("{found:?}") };
+    assert_eq!((grasp.as_str(), verdict, then), ("reach_at", &Verdict::Proven, &Verdict::Proven), "{why}");
+    let found = motions(&KITCHEN, &grasped("let at = locate(mug_1) grasp(mug_1, at)"));
+    let (grasp, verdict, why) = found.iter().find(|(query, ..)| query == "reach_at").unwrap();
+    assert_eq!((grasp.as_str(), verdict), ("reach_at", &Verdict::Deferred));
+    assert_eq!(why, "only the run determines the point");
+}
+
+#[test]
+fn grasps_beside_the_thing_are_refused() {
+    let beside = "grasp(mug_1, pose(-0.5 m, 0.3 m, 0 deg))";
+    let said = refusal(&KITCHEN, &grasped(beside)).0;
+    assert!(said.starts_with("M0610 `grasp` cannot perform `reach_at(mug_1, pose(-0.5 m, 0.3 m, 0 deg))`"));
+    assert!(said.contains("the point is 2.54 m beside it, a hand closes within 0.05 m of it"), "{said}");
+    let tried = format!("try {{ {beside} }} catch not_found {{ say(\"Where is it?\") done }}");
+    let (graph, said) = compile(&KITCHEN, &grasped(&tried));
+    assert!(graph.is_some(), "{said:?}");
+    assert!(said.iter().any(|said| said.code.to_string() == "M0610"), "{said:?}");
+}
+
 /// Errors of a policy that picks the mug and puts it on the table by some rules.
 fn placed(rules: &str) -> Vec<String> {
     let policy = format!("policy p for hsr {{ go(mug_1) pick(mug_1) place(mug_1, kitchen_table, {rules}) }}");

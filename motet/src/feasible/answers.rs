@@ -58,7 +58,9 @@ fn degrees(angle: f64) -> f64 {
 fn numbers(reason: &InfeasibleReason) -> Vec<(&'static str, f64)> {
     match reason {
         InfeasibleReason::OutOfReach { needs, reach, .. } => vec![("needs", *needs), ("reach", *reach)],
-        InfeasibleReason::TooHeavy { needs, limit } | InfeasibleReason::TooWide { needs, limit } => {
+        InfeasibleReason::TooHeavy { needs, limit }
+        | InfeasibleReason::TooWide { needs, limit }
+        | InfeasibleReason::Beside { needs, limit } => {
             vec![("needs", *needs), ("limit", *limit)]
         }
         InfeasibleReason::NotInView { aside: Some(aside), .. } => {

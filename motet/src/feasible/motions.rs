@@ -24,6 +24,7 @@ pub(super) fn parse_motions(
             what: "motion",
             name: motion.clone(),
             help: "write go_to(ENTITY), reach(OBJECT), reach(OBJECT, top|side|front), \
+                   reach_at(OBJECT, pose(X, Y, Z, YAW)), \
                    put(OBJECT, ENTITY), put(OBJECT, ENTITY, near: ENTITY), stand_at(pose(X, Y, YAW)), \
                    offer(OBJECT, PERSON), pull(CONTAINER), push(ENTITY), look(ENTITY) \
                    or posture(NAME)"
@@ -41,6 +42,7 @@ pub(super) fn parse_motions(
             }
             MotionQuery::GoTo(id)
             | MotionQuery::Reach(id, _)
+            | MotionQuery::ReachAt(id, _)
             | MotionQuery::Look(id)
             | MotionQuery::Pull(id)
             | MotionQuery::Push(id) => {
@@ -59,8 +61,14 @@ pub(super) fn parse_motions(
 /// Parses a motion such as `reach(mug_1, top)`; `None` for any other text.
 fn parse_motion(motion: &str) -> Option<MotionQuery> {
     let ExprKind::Call(call) = parse_condition(motion).ok()?.kind else { return None };
-    if let ("stand_at", [Arg { name: None, value, .. }]) = (call.name.text.as_str(), call.args.as_slice()) {
-        return parse_pose(value).map(MotionQuery::StandAt);
+    match (call.name.text.as_str(), call.args.as_slice()) {
+        ("stand_at", [Arg { name: None, value, .. }]) => return parse_pose(value).map(MotionQuery::StandAt),
+        ("reach_at", [Arg { name: None, value: object, .. }, Arg { name: None, value: at, .. }]) => {
+            let ExprKind::Name(id) = &object.kind else { return None };
+            return parse_pose(at).map(|at| MotionQuery::ReachAt(id.clone(), Some(at)));
+        }
+        (_, args) if args.iter().any(|arg| arg.name.is_none() && is_pose(arg)) => return None,
+        _ => {}
     }
     let rules = parse_rules(&call)?;
     let (name, mut args) = parse_call(motion, FileId::default())?;
@@ -75,6 +83,10 @@ fn parse_motion(motion: &str) -> Option<MotionQuery> {
         query if rules == PlaceRules::default() => query,
         _ => return None,
     })
+}
+
+fn is_pose(arg: &Arg) -> bool {
+    matches!(&arg.value.kind, ExprKind::Call(call) if call.is_pose())
 }
 
 /// Parses the rules of a place, which are the named arguments of a motion; `None` for anything else.
@@ -116,14 +128,14 @@ fn parse_pose(expr: &Expr) -> Option<MapPose> {
     }
 }
 
-/// Parses the name of a motion and its arguments without names, with their spans in a file.
+/// Parses the name of a motion and its arguments without names, except poses, with their spans in a file.
 fn parse_call(motion: &str, file: FileId) -> Option<(SmolStr, Vec<(SmolStr, Span)>)> {
     let ExprKind::Call(call) = parse_condition(motion).ok()?.kind else { return None };
     let arg = |arg: Arg| match arg.value.kind {
         ExprKind::Name(id) if arg.name.is_none() => Some((id, Span { file, ..arg.value.span })),
         _ => None,
     };
-    let plain = call.args.into_iter().filter(|arg| arg.name.is_none());
+    let plain = call.args.into_iter().filter(|arg| arg.name.is_none() && !is_pose(arg));
     Some((call.name.text, plain.map(arg).collect::<Option<_>>()?))
 }
 

@@ -317,8 +317,8 @@ pub struct Need {
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Motion {
-    /// The motion query: `go_to`, `stand_at`, `reach`, `put`, `put_at`, `pull`, `push`, `offer`, `look` or
-    /// `posture`.
+    /// The motion query: `go_to`, `stand_at`, `reach`, `reach_at`, `put`, `put_at`, `pull`, `push`, `offer`,
+    /// `look` or `posture`.
     pub query: SmolStr,
     pub args: Vec<Term>,
     pub verdict: Verdict,

@@ -49,6 +49,8 @@ pub enum MotionQuery {
     GoTo(SmolStr),
     /// Grasp an object, from a given side or from any.
     Reach(SmolStr, Option<GraspSide>),
+    /// Grasp an object at a point; `None` for one that only the run knows.
+    ReachAt(SmolStr, Option<MapPose>),
     /// Drive to a pose of the base.
     StandAt(MapPose),
     /// Put the held object on a surface or into a container, at a place by these rules.
@@ -107,6 +109,8 @@ impl std::fmt::Display for MotionQuery {
             Self::GoTo(to) => write!(f, "go_to({to})"),
             Self::Reach(object, None) => write!(f, "reach({object})"),
             Self::Reach(object, Some(side)) => write!(f, "reach({object}, {})", side.name()),
+            Self::ReachAt(object, Some(pose)) => write!(f, "reach_at({object}, {pose})"),
+            Self::ReachAt(object, None) => write!(f, "reach_at({object}, …)"),
             Self::StandAt(pose) => write!(f, "stand_at({pose})"),
             Self::Put(object, on, rules) => write!(f, "put({object}, {on}{rules})"),
             Self::Offer(object, to) => write!(f, "offer({object}, {to})"),
@@ -345,6 +349,12 @@ pub enum InfeasibleReason {
         needs: f64,
         limit: f64,
     },
+    /// Point of a grasp that is not at the object; both in m.
+    Beside {
+        /// Distance of the point from the object.
+        needs: f64,
+        limit: f64,
+    },
 }
 
 /// Length that decides whether a target is within reach.
@@ -370,6 +380,7 @@ impl InfeasibleReason {
             Self::NotInView { .. } => "not_in_view",
             Self::TooHeavy { .. } => "too_heavy",
             Self::TooWide { .. } => "too_wide",
+            Self::Beside { .. } => "beside",
         }
     }
 }
@@ -414,6 +425,9 @@ impl std::fmt::Display for InfeasibleReason {
             }
             Self::TooWide { needs, limit } => {
                 write!(f, "is {needs:.3} m wide, the hand opens to {limit:.3} m")
+            }
+            Self::Beside { needs, limit } => {
+                write!(f, "the point is {needs:.2} m beside it, a hand closes within {limit:.2} m of it")
             }
         }
     }

@@ -97,7 +97,8 @@ impl Task {
             return end_of(around.robot, witness).map(|joints| vec![at_joints(bound, &joints)]);
         }
         let posture = |name: &str| around.card.postures.get(name);
-        let (query, first) = (motion.query.as_str(), motion.args.first());
+        let query = motion.query.as_str();
+        let first = if query == "reach_at" { motion.args.get(1) } else { motion.args.first() };
         let thing = match (query, first) {
             ("posture", Some(Argument::Case(name) | Argument::Text(name) | Argument::Entity(name))) => {
                 let posture = posture(name).ok_or_else(|| format!("there is no posture `{name}`"))?;
@@ -111,7 +112,7 @@ impl Task {
             ("reach", Some(Argument::Entity(id))) => {
                 around.world.pose(id).ok_or_else(|| format!("nobody knows where `{id}` is"))?
             }
-            ("reach", Some(Argument::Pose(pose))) => Transform::from(*pose),
+            ("reach" | "reach_at", Some(Argument::Pose(pose))) => Transform::from(*pose),
             _ => return Err(format!("`{query}` says no pose of the hand")),
         };
         let Some(link) = bound.link.as_ref().filter(|_| !bound.grasps.is_empty()) else {

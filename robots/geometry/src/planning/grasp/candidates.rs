@@ -1,7 +1,8 @@
 //! Grasp candidates: hand poses from the shape of an object and the opening of the hand.
 //!
 //! The fingers close across the object on a line through its axis or its centre, at the depth at which they
-//! hold it best.
+//! hold it best. Where a point is given, the object lies between the fingers there: the hand is moved along
+//! the object and, in the closing direction, as far as the fingers then move the object.
 
 use std::f64::consts::{FRAC_PI_6, TAU};
 
@@ -14,6 +15,8 @@ use crate::trigonometry::{sin_cos, turn};
 
 /// Height in m of the finger tips above the lower face of an object, for a grasp from above.
 const ABOVE: f64 = 0.004;
+/// Distance in m from the end of an object at which whole fingers hold it.
+const FINGER: f64 = 0.03;
 /// Least distance between two depths that are tried, in m.
 const NEXT: f64 = 0.003;
 
@@ -31,17 +34,22 @@ pub(crate) struct GraspCandidate {
     /// Distance of the object's centre from the tip along the fingers, and what is between them.
     pub(crate) depth: f64,
     pub(crate) contact: FingerContact,
+    /// Translation of the object by the closing fingers.
+    pub(crate) push: Vector3<f64>,
 }
 
-/// All candidates in a fixed order, and the least width across which the object could be grasped, in m.
+/// All candidates in a fixed order, at a point if one is given, and the least width across which the object
+/// could be grasped, in m.
 pub(crate) fn grasp_candidates(
     hand: &HandModel,
     object: &Solid,
     side: Option<GraspSide>,
     base: [f64; 3],
+    point: Option<Vector3<f64>>,
 ) -> (Vec<GraspCandidate>, f64) {
-    let mut found =
-        CandidateList { hand, object, holds: vec![], shallow: vec![], least: f64::INFINITY, known: vec![] };
+    let off = point.map(|point| point - object.centre);
+    let (holds, shallow) = (vec![], vec![]);
+    let mut found = CandidateList { hand, object, off, holds, shallow, least: f64::INFINITY, known: vec![] };
     let [x, _, z] = object.axes;
     match object.shape {
         Shape::Box(half) => found.of_box(&half),
@@ -81,13 +89,15 @@ pub(crate) fn hold_depths(hand: &HandModel, width: f64, contact: FingerContact) 
     hand.depths(width, contact, (hand.palm + half).max(0.0))
 }
 
-/// Steps in which candidates are ordered by their approach.
+/// Steps in which candidates are ordered by their approach, and m by which they move the object for one step.
 const STEPS: usize = 20;
+const PUSHED: f64 = 0.002;
 
-/// Orders candidates: from the robot's side first, and from above, which is rarely blocked, in the middle.
+/// Orders candidates: those that move the object less, and from the robot's side first, and from above, which is rarely blocked, in the middle.
 /// `ahead` leads from the base to the object.
 pub(crate) fn in_order(holds: &mut [GraspCandidate], ahead: &Vector3<f64>) {
-    holds.sort_by_cached_key(|hold| rank(hold, ahead));
+    let pushed = |hold: &GraspCandidate| libm::round(hold.push.norm() / PUSHED) as usize;
+    holds.sort_by_cached_key(|hold| pushed(hold) + rank(hold, ahead));
 }
 
 /// Rank of a candidate, the best the least. In steps, so that rounding does not change the order.
@@ -124,6 +134,8 @@ struct FingerPlacement {
 struct CandidateList<'a> {
     hand: &'a HandModel,
     object: &'a Solid,
+    /// Point of the grasp from the object's centre, if it is given.
+    off: Option<Vector3<f64>>,
     holds: Vec<GraspCandidate>,
     /// Grasps that hold less of the object.
     shallow: Vec<GraspCandidate>,
@@ -140,7 +152,7 @@ impl CandidateList<'_> {
         let square = if axis.z.abs() < 0.9 { axis.cross(&Vector3::z()) } else { axis.cross(&Vector3::y()) };
         let first = square.normalize();
         let ball = half == 0.0;
-        let heights: &[f64] = if half > 0.03 { &[0.0, 0.5, -0.5] } else { &[0.0] };
+        let heights = self.shifts(axis, half, 0.03);
         let about = Unit::new_normalize(*axis);
         let outs: Vec<Vector3<f64>> =
             (0..16).map(|step| turn(&about, TAU * f64::from(step) / 16.0) * first).collect();
@@ -150,8 +162,8 @@ impl CandidateList<'_> {
                 let along = axis.cross(out);
                 // Bent fingers still close across the axis at the widest place.
                 let ways = [along, -along].map(|along| self.way(&approach, &along, 2.0 * radius, true));
-                for height in heights {
-                    ways.iter().flatten().for_each(|way| self.hold(way, axis * (half * height)));
+                for height in &heights {
+                    ways.iter().flatten().for_each(|way| self.hold(way, axis * *height));
                 }
             }
         }
@@ -169,9 +181,7 @@ impl CandidateList<'_> {
                     continue;
                 }
                 let third = axes.iter().enumerate().find(|(third, _)| *third != at && *third != other);
-                let shifts = third.map_or(vec![0.0], |(_, (_, half))| {
-                    if *half > 0.04 { vec![0.0, half * 0.5, half * -0.5] } else { vec![0.0] }
-                });
+                let shifts = third.map_or(vec![0.0], |(_, (axis, half))| self.shifts(axis, *half, 0.04));
                 let direction = third.map_or(Vector3::zeros(), |(_, (axis, _))| *axis);
                 let ways =
                     [(*approach, *along), (*approach, -along), (-approach, *along), (-approach, -along)]
@@ -180,6 +190,19 @@ impl CandidateList<'_> {
                     ways.iter().flatten().for_each(|way| self.hold(way, direction * shift));
                 }
             }
+        }
+    }
+
+    /// Places along an axis at which an object is grasped: in the middle and, of a long one, half-way to its
+    /// ends; or as near to the given point as whole fingers hold the object.
+    fn shifts(&self, axis: &Vector3<f64>, half: f64, long: f64) -> Vec<f64> {
+        match self.off {
+            Some(off) => {
+                let most = if half > long { (0.5 * half).max(half - FINGER) } else { 0.0 };
+                vec![off.dot(axis).clamp(-most, most)]
+            }
+            None if half > long => vec![0.0, half * 0.5, half * -0.5],
+            None => vec![0.0],
         }
     }
 
@@ -251,12 +274,13 @@ impl CandidateList<'_> {
     /// Adds the grasps at a shift from the centre.
     fn hold(&mut self, way: &FingerPlacement, shift: Vector3<f64>) {
         let FingerPlacement { approach, along, width, side, contact, rotation, .. } = *way;
+        let aside = along * self.off.map_or(0.0, |off| off.dot(&along));
         for (depth, is_shallow) in [(Some(way.depth), false), (way.shallow[0], true), (way.shallow[1], true)]
         {
             let Some(depth) = depth else { continue };
-            let at = self.object.centre + shift - approach * depth - along * self.hand.middle(width);
+            let at = self.object.centre + shift + aside - approach * depth - along * self.hand.middle(width);
             let map_from_tip = Isometry3::from_parts(Translation3::from(at), rotation);
-            let hold = GraspCandidate { map_from_tip, approach, side, width, depth, contact };
+            let hold = GraspCandidate { map_from_tip, approach, side, width, depth, contact, push: aside };
             if is_shallow { self.shallow.push(hold) } else { self.holds.push(hold) }
         }
     }

@@ -64,6 +64,7 @@ impl PlanningScene<'_> {
             &Solid::new(&Isometry3::identity(), held.shape),
             None,
             self.state.robot.base,
+            None,
         );
         let why =
             format!("no grasp by `{}` of `{}` is known, and the scene gives none", held.hand.name, held.id);
@@ -78,7 +79,7 @@ fn grip(model: &RobotModel, scene: &Scene, state: &SceneState, id: &str) -> Opti
     let pose = planar(x, y, yaw) * Translation3::from(Vector3::from(AHEAD));
     let ahead = planar(x, y, yaw).rotation * Vector3::x();
     let object = Solid::new(&pose, shape);
-    let (mut all, _) = grasp_candidates(hand, &object, None, state.robot.base);
+    let (mut all, _) = grasp_candidates(hand, &object, None, state.robot.base, None);
     in_order(&mut all, &ahead);
     // It stood on something, which the hand does not reach into.
     let bottom = object.centre.z - object.extent(&Vector3::z());

@@ -361,6 +361,7 @@ impl<'a> GraspManifold<'a> {
             width: slot.width,
             depth: (middle - map_from_tip.translation.vector).dot(&approach),
             contact: slot.contact,
+            push: Vector3::zeros(),
         };
         let is_permitted = |hold: &GraspCandidate| self.permits.is_none_or(|permits| permits(hold));
         (is_asked_for && approach.z <= 0.5).then_some(hold).filter(is_permitted)

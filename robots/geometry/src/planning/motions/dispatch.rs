@@ -40,6 +40,7 @@ impl QueryContext<'_> {
         match query {
             MotionQuery::GoTo(to) => go_to::go_to(self, to, budget),
             MotionQuery::Reach(object, side) => reach::reach(self, object, *side, budget),
+            MotionQuery::ReachAt(object, at) => reach::reach_at(self, object, at.as_ref(), budget),
             MotionQuery::StandAt(pose) => go_to::stand_at(self, pose),
             MotionQuery::Put(object, on, rules) => put::put(self, (object, on), rules, budget),
             MotionQuery::Offer(object, to) => offer::offer(self, object, to, budget),

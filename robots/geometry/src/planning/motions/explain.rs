@@ -10,7 +10,7 @@ use smol_str::SmolStr;
 
 use super::tight_spot::tight_spot;
 use crate::planning::context::QueryContext;
-use crate::planning::placing::{Misfit, PlaceRules};
+use crate::planning::placing::{MapPose, Misfit, PlaceRules};
 use crate::planning::query::{
     BearingLimit, Infeasible, InfeasibleReason, MotionAnswer, MotionQuery, ReachLength, SearchBudget,
 };
@@ -77,6 +77,7 @@ impl QueryContext<'_> {
             InfeasibleReason::NoPlace(Misfit::Taken { by, .. }) => {
                 cleared(self, query, by.as_ref(), least).or_else(|| unruled(self, query, least))
             }
+            InfeasibleReason::Beside { .. } => in_the_middle(self, query, least),
             InfeasibleReason::NoPlace(_) => unruled(self, query, least),
             InfeasibleReason::OutOfReach { length: ReachLength::Sight, needs, reach } => {
                 targets(query).next_back().map(|id| {
@@ -211,6 +212,16 @@ fn unruled(context: &QueryContext<'_>, query: &MotionQuery, budget: SearchBudget
     helps.then(|| format!("it is feasible elsewhere on `{on}`"))
 }
 
+/// Suggests to grasp an object at its middle where the point is beside it.
+fn in_the_middle(context: &QueryContext<'_>, query: &MotionQuery, budget: SearchBudget) -> Option<String> {
+    let MotionQuery::ReachAt(id, _) = query else { return None };
+    let pose = context.scene.entities.get(id).and_then(|entity| context.state.pose(entity))?;
+    let middle = MapPose::new(pose.translation.vector.into(), 0.0);
+    let query = MotionQuery::ReachAt(id.clone(), Some(middle));
+    let helps = matches!(context.answer(&query, budget), MotionAnswer::Feasible(_));
+    helps.then(|| format!("it is feasible at the middle of `{id}`, {middle}"))
+}
+
 /// Suggests how much higher an object would have to be where no grasp pose is free.
 fn lifted(
     context: &QueryContext<'_>,
@@ -269,6 +280,7 @@ pub(crate) fn barrier(
         query,
         MotionQuery::GoTo(_)
             | MotionQuery::Reach(..)
+            | MotionQuery::ReachAt(..)
             | MotionQuery::Put(..)
             | MotionQuery::Pull(_)
             | MotionQuery::Push(_)
@@ -314,6 +326,7 @@ pub(crate) fn targets(query: &MotionQuery) -> impl DoubleEndedIterator<Item = &S
         MotionQuery::Put(object, other, _) | MotionQuery::Offer(object, other) => (Some(object), Some(other)),
         MotionQuery::GoTo(id)
         | MotionQuery::Reach(id, _)
+        | MotionQuery::ReachAt(id, _)
         | MotionQuery::Look(id)
         | MotionQuery::Pull(id)
         | MotionQuery::Push(id) => (Some(id), None),

@@ -103,6 +103,7 @@ impl HandlePull<'_> {
                             width: THICK,
                             depth: self.depth,
                             contact: FingerContact::Round,
+                            push: Vector3::zeros(),
                         });
                     }
                 }

@@ -78,7 +78,9 @@ fn narrowest(
     }
     let target = |id: &SmolStr| context.entity(id).map(|(index, _)| index);
     let allowed = match query {
-        MotionQuery::Reach(id, _) => AllowedCollisions::of_grasp(context, target(id)?),
+        MotionQuery::Reach(id, _) | MotionQuery::ReachAt(id, _) => {
+            AllowedCollisions::of_grasp(context, target(id)?)
+        }
         MotionQuery::Put(_, on, _) => AllowedCollisions { held: target(on), ..AllowedCollisions::default() },
         _ => AllowedCollisions::default(),
     };

@@ -338,3 +338,64 @@ proptest! {
         }
     }
 }
+
+/// Answer to a grasp of the mug at a point from its middle, with the point.
+fn at_point(scene: &Scene, off: [f64; 3]) -> (MotionAnswer, Vector3<f64>) {
+    let (model, urdf) = model("hsr");
+    let state = SceneState::new(&model, scene);
+    let context = QueryContext::new(&model, scene, &state);
+    let point = Vector3::from(scene.entities["mug_1"].pose.unwrap().xyz) + Vector3::from(off);
+    let query = MotionQuery::ReachAt("mug_1".into(), Some(MapPose::new(point.into(), 1.0)));
+    let answer = context.answer(&query, SearchBudget::default());
+    if let MotionAnswer::Feasible(witness) = &answer {
+        let faults = verify::faults(&model, &urdf, scene, &state, witness, None);
+        assert!(faults.is_empty(), "{off:?}: {:?}", &faults[..faults.len().min(5)]);
+        let (grasp, hand) = (witness.grasp.as_ref().unwrap(), model.hand().unwrap());
+        let closes = Vector3::from(hand.card.closes);
+        let local = grasp.map_from_tip.inverse() * nalgebra::Point3::from(point);
+        assert!(local.coords.dot(&closes).abs() < 1e-6, "{off:?}: the fingers close beside the point, {local}");
+        let held = grasp.tip_from_object.translation.vector;
+        assert!(held.dot(&closes).abs() < 1e-6, "{off:?}: closed fingers have the object in the middle, {held}");
+    }
+    (answer, point)
+}
+
+#[test]
+fn reach_at_closes_the_fingers_at_the_point() {
+    let scene = embedded("kitchen");
+    for off in [[0.0; 3], [0.035, 0.0, 0.03], [0.0, 0.04, 0.0], [-0.03, -0.03, -0.02], [0.0, 0.0, 0.09]] {
+        let (answer, _) = at_point(&scene, off);
+        assert!(matches!(answer, MotionAnswer::Feasible(_)), "{off:?}: {answer:?}");
+    }
+    for (off, far) in [([0.0, 0.0, -0.77], 0.72), ([0.0, 0.14, 0.0], 0.1), ([-2.6, 0.0, -0.77], 2.66)] {
+        let (why, certified) = reason(at_point(&scene, off).0);
+        let InfeasibleReason::Beside { needs, limit: 0.05 } = why else { panic!("{why:?}") };
+        assert!((needs - far).abs() < 0.01 && certified, "{off:?}: {needs}");
+    }
+    // What does not depend on the point is known without it.
+    let unknown = MotionQuery::ReachAt("mug_1".into(), None);
+    let answer = |scene: &Scene| {
+        let model = model("hsr").0;
+        let state = SceneState::new(&model, scene);
+        QueryContext::new(&model, scene, &state).answer(&unknown, SearchBudget::default())
+    };
+    assert!(matches!(answer(&scene), MotionAnswer::Unknown(_)));
+    let heavy = changed(|scene| scene.entities["mug_1"].mass_kg = Some(2.0));
+    assert!(matches!(reason(answer(&heavy)), (InfeasibleReason::TooHeavy { .. }, true)));
+}
+
+#[test]
+fn reach_at_takes_a_long_thing_at_the_end_that_is_asked_for() {
+    let scene = changed(|scene| {
+        scene.entities.retain(|id, entity| entity.kind != "Object" || id == "mug_1");
+        let mug = &mut scene.entities["mug_1"];
+        mug.shape = Some(EntityShape::Box([0.04, 0.4, 0.08]));
+        mug.pose.as_mut().unwrap().xyz = [1.9, 0.4, 0.76];
+    });
+    for off in [-0.18, 0.0, 0.1] {
+        let (answer, point) = at_point(&scene, [0.0, off, 0.0]);
+        let MotionAnswer::Feasible(witness) = answer else { panic!("{off}: {answer:?}") };
+        let tip = witness.grasp.as_ref().unwrap().map_from_tip.translation.vector;
+        assert!((tip.y - point.y).abs() < 0.02, "{off}: {tip} for {point}");
+    }
+}

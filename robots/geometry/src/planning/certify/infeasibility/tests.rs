@@ -168,7 +168,7 @@ fn poses(
     let allowed = AllowedCollisions::of_grasp(context, index);
     let pose = context.state.pose(entity).unwrap();
     let object = Solid::new(&pose, solid_shape(entity).unwrap());
-    let (holds, _) = grasp_candidates(hand, &object, None, context.state.robot.base);
+    let (holds, _) = grasp_candidates(hand, &object, None, context.state.robot.base, None);
     let tips: Vec<_> = holds.iter().map(|hold| hold.map_from_tip).collect();
     let palm = context.hand_checker(hand, &tips, allowed);
     (tips.into_iter().filter(|tip| palm.contact(tip).is_none()).collect(), allowed, object)
@@ -378,7 +378,7 @@ fn patch_contains_the_grasps_of_an_object() {
         let object = Solid::new(&pose, shape);
         for side in [None, Some(GraspSide::Top), Some(GraspSide::Side), Some(GraspSide::Front)] {
             let manifold = GraspManifold::new(hand, &object, side, [0.0; 3]);
-            let (holds, _) = grasp_candidates(hand, &object, side, [0.0; 3]);
+            let (holds, _) = grasp_candidates(hand, &object, side, [0.0; 3], None);
             assert!(side.is_some() || !holds.is_empty(), "{shape:?}");
             // Small ones, so that how far they say they go is not more than a hand is long.
             let (mut open, mut patches) = (manifold.patches(), vec![]);

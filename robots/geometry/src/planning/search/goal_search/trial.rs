@@ -337,7 +337,7 @@ mod tests {
             let object = Solid::new(&Isometry3::translation(1.0, 0.2, 0.6), shape);
             let base = [0.0; 3];
             let fine = finer(&GraspManifold::new(hand, &object, None, base));
-            let (coarse, _) = grasp_candidates(hand, &object, None, base);
+            let (coarse, _) = grasp_candidates(hand, &object, None, base, None);
             assert!(fine.len() >= 64 && fine.len() <= 2 * POSES[1], "{shape:?}: {}", fine.len());
             for hold in &coarse {
                 // The wrist: a point of the hand about as far from the object as the arm begins.
