@@ -1,6 +1,7 @@
 """`python -m motet_mujoco`: a driver on standard input and output, whose robot is simulated by MuJoCo."""
 
 import argparse
+import shlex
 import sys
 
 from .chance import profile
@@ -41,7 +42,10 @@ def main(arguments=None):
     parser.add_argument("--says", action="append", default=[], type=says, metavar="ID:TEXT@SECONDS",
                         help="a person says something by themselves, at a time")
     parser.add_argument("--speed", type=float, default=1.0, help="for hosts with a wall clock: times real time")
-    parser.add_argument("--oracle", action="store_true", help="perceive by the truth of the simulator, not by pixels")
+    parser.add_argument("--oracle", nargs="?", const="robot", choices=("robot", "judge"),
+                        help="perceive by the truth of the simulator, not by pixels; with `judge`, tell it to judges alone")
+    parser.add_argument("--detector", metavar="CMD", type=shlex.split,
+                        help="the command of a detector that reads and answers lines [default: one by colours and shapes]")
     args = parser.parse_args(arguments)
     try:
         command = find_motet(args.motet)
@@ -54,8 +58,8 @@ def main(arguments=None):
     except ModelError as error:
         print("error: %s" % error, file=sys.stderr)
         return 2
-    driver = Driver(model, command, Options(rates, args.seed, args.answers), args.oracle, args.walk, args.says,
-                    told)
+    driver = Driver(model, command, Options(rates, args.seed, args.answers), args.oracle == "robot", args.walk,
+                    args.says, told, args.detector, args.oracle is not None)
     stdio(driver, args.speed)
     return 0
 

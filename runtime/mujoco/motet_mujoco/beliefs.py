@@ -1,6 +1,7 @@
 """Beliefs: what the robot holds to be where. They start as the scene, and follow what the robot sees and does.
 
-The world itself is not asked here, except for what a robot feels: its joints, and what is in its hand.
+The world itself is not asked here, except for what a robot feels: its joints, and what its laser scanner meets. An
+oracle knows what is in its hand, too.
 """
 
 import copy
@@ -24,23 +25,63 @@ SLACK = 0.04
 class Beliefs:
     """The scene as the robot knows it."""
 
-    def __init__(self, world, told=None):
-        self.world = world
+    def __init__(self, world, told=None, oracle=False):
+        self.world, self.oracle = world, oracle
         self.scene = copy.deepcopy(told or world.model.scene)
         self.entities = {entity["id"]: entity for entity in self.scene["entities"]}
         # Where the room that the robot was told of has each thing.
         self.first = {one: entity["pose"]["xyz"] for one, entity in self.entities.items() if "pose" in entity}
         # The thing in the hand, and the height of the hand in m as it closed around it; None if it was there before.
         self.hand, self.grasped_at = None, None
+        # Where that thing is in the frame of the link of the tip: position and rotation (w, x, y, z).
+        self.grip = None
         # Things by the people who took them; things that were seen or felt where they are; and where lost things are not.
         self.given, self.seen, self.gone = {}, set(), {}
+        # Things of which the host told and the room that was told has none.
+        self.new = set()
         self.data = mujoco.MjData(world.model.mj)
 
     def holds(self, thing, height=None):
-        """Notes that the hand has closed around a thing, at a height in m."""
+        """Notes that the hand has closed around a thing, at a height in m, where it is believed to be. The fingers
+        have it in their middle."""
         self.hand, self.grasped_at = thing, height
+        known = self.entities.get(thing, {}).get("pose")
+        if known is None or height is None:
+            # The scene says how the hand holds what it holds at the start.
+            position, quaternion = self.world.pose(thing)
+        else:
+            tip, rotation = self.world.tip()
+            position, quaternion = np.array(known["xyz"], dtype=float), turned(known)
+            position -= rotation[:, 1] * float(rotation[:, 1] @ (position - tip))
+        self.grip = relative(self.world.tip_frame(), position, quaternion)
         self.gone.pop(thing, None)
         self.given.pop(thing, None)
+
+    def in_hand(self):
+        """The thing that the hand holds, as a list: by the fingers, that meet something."""
+        if self.oracle:
+            return self.world.held()
+        return [self.hand] if self.hand is not None and self.world.is_gripping() else []
+
+    def held_pose(self, thing):
+        """Position and rotation of the thing in the hand: it has moved with the hand since that closed around it."""
+        if self.oracle or thing != self.hand:
+            return self.world.pose(thing)
+        place, rotation = self.world.tip_frame()
+        turn, whole = np.zeros(4), np.zeros(4)
+        mujoco.mju_mat2Quat(turn, np.ascontiguousarray(rotation).ravel())
+        mujoco.mju_mulQuat(whole, turn, self.grip[1])
+        return place + rotation @ self.grip[0], whole
+
+    def scan(self, person):
+        """Notes where a person is, if the laser scanner meets them."""
+        world = self.world
+        if sight.scans(world.model, world.data, world.base(), person):
+            self.saw(person, world.pose(person)[0])
+
+    def things(self):
+        """Ids of what can be moved: the things of the room that was told, and those of which the host told later."""
+        return [one for one in self.entities if one in self.world.model.free or one in self.new]
 
     def room(self):
         """The room as it is believed to be, with the robot as it stands and what it holds."""
@@ -60,7 +101,7 @@ class Beliefs:
         before = known.get("pose")
         far = float(np.linalg.norm(np.array(before["xyz"]) - position)) if before else np.inf
         self.saw(entity, position, quaternion)
-        if entity not in self.world.model.free or entity == self.hand:
+        if entity not in self.things() or entity == self.hand:
             return
         self.seen.add(entity)
         self.gone.pop(entity, None)
@@ -146,7 +187,7 @@ class Beliefs:
     def forget(self, entity):
         """Notes that something is no longer where it was, and that its place is not known."""
         known = self.entities.get(entity)
-        if known is not None and entity in self.world.model.free:
+        if known is not None and entity in self.things():
             self.gone.setdefault(entity, set()).update(known[one] for one in ("on", "in") if one in known)
             known.pop("pose", None)
             self.rests(entity, None, None)
@@ -155,10 +196,16 @@ class Beliefs:
             if self.hand == entity:
                 self.hand = None
 
-    def told(self, entity, support, position=None):
-        """Notes what the host says of a thing: what it is on, in or at, as {"in": ID}, and where it was seen."""
-        known = self.entities.get(entity)
-        if known is None or entity not in self.world.model.free:
+    def told(self, entity, support, position=None, label=None, size=None):
+        """Notes what the host says of a thing: what it is on, in or at, as {"in": ID}, and where it was seen. What has
+        no such id yet is a new thing, with a label and a size in m if they are known."""
+        if entity not in self.entities:
+            self.new.add(entity)
+            self.entities[entity] = {"id": entity, "kind": "Object", "names": [label] if label else []}
+            if size is not None:
+                self.entities[entity]["shape"] = {"box": [round(max(float(part), 0.005), 4) for part in size]}
+            self.scene["entities"].append(self.entities[entity])
+        if entity not in self.things():
             return
         for relation, on in (support or {}).items():
             self.forget(entity)
@@ -169,6 +216,8 @@ class Beliefs:
                 self.given[entity] = on
         if position is not None:
             self.saw(entity, np.array(position, dtype=float))
+            if entity in self.new:
+                self.rests(entity, *self.support_at(entity))
 
     def lay(self, data, held=None):
         """Puts things, people and doors of a world's data where they are believed to be. A thing whose place is not
@@ -177,6 +226,8 @@ class Beliefs:
         for thing, (at, _) in model.free.items():
             pose = self.entities.get(thing, {}).get("pose")
             if thing == held:
+                if not self.oracle and self.grip is not None:
+                    data.qpos[at : at + 3], data.qpos[at + 3 : at + 7] = self.held_pose(thing)
                 continue
             data.qpos[at : at + 3] = pose["xyz"] if pose else AWAY
             if pose:
@@ -189,10 +240,12 @@ class Beliefs:
             data.qpos[at] = opened if self.entities.get(container, {}).get("open") else 0.0
 
     def opened(self, container, is_open):
-        """Notes that a drawer or door is open or closed."""
+        """Notes that a drawer or door is open or closed; None for what nobody knows."""
         known = self.entities.get(container)
         if known is not None and "travel" in known:
-            known["open"] = bool(is_open)
+            known.pop("open", None)
+            if is_open is not None:
+                known["open"] = bool(is_open)
 
     def locked(self, container):
         """Notes that a drawer or a door does not open."""
@@ -210,17 +263,11 @@ class Beliefs:
         for joint, at in model.controls.items():
             if joint not in base and at not in model.grips:
                 robot["joints"][joint] = float(np.clip(world.target[at], low[at], high[at]))
-        held = world.held()
+        held = self.in_hand()
         if held:
             robot["holding"] = held[0]
-            place, rotation = world.tip_frame()
-            position, quaternion = world.pose(held[0])
-            relative = rotation.T @ (position - place)
-            turned = np.zeros(4)
-            inverse = np.zeros(4)
-            mujoco.mju_mat2Quat(inverse, np.ascontiguousarray(rotation.T).ravel())
-            mujoco.mju_mulQuat(turned, inverse, quaternion)
-            robot["grip"] = {"xyz": [float(part) for part in relative], "rpy": rpy(turned)}
+            place, turn = relative(world.tip_frame(), *self.held_pose(held[0]))
+            robot["grip"] = {"xyz": [float(part) for part in place], "rpy": rpy(turn)}
             for entity in scene["entities"]:
                 if entity["id"] == held[0]:
                     entity.pop("on", None)
@@ -239,6 +286,15 @@ class Beliefs:
         if not found and singular(wanted) in ("object", "thing", "item", "anything", "everything"):
             found = list(self.entities.values())
         return [one["id"] for one in found]
+
+
+def relative(frame, position, quaternion):
+    """A pose in a frame, which is a position and a rotation."""
+    place, rotation = frame
+    inverse, turn = np.zeros(4), np.zeros(4)
+    mujoco.mju_mat2Quat(inverse, np.ascontiguousarray(rotation.T).ravel())
+    mujoco.mju_mulQuat(turn, inverse, quaternion)
+    return rotation.T @ (position - place), turn
 
 
 def turned(pose):

@@ -74,7 +74,8 @@ class Goal:
 class Driver:
     """Keeps goals, answers calls, and lets the world go on."""
 
-    def __init__(self, model, command, options, oracle=False, walks=(), says=(), told=None):
+    def __init__(self, model, command, options, oracle=False, walks=(), says=(), told=None, detector=None, judged=None):
+        self.detector, self.judged = detector, oracle if judged is None else judged
         self.model, self.command, self.options, self.room = model, command, options, told
         self.oracle, self.walks, self.says = oracle, list(walks), list(says)
         self.instance, self.forgets = "%d-%d" % (os.getpid(), time.time_ns()), 0
@@ -89,12 +90,12 @@ class Driver:
         rates, chance = self.options.rates, self.options.chance
         self.model.mj.geom_friction[:, 0] = self.options.friction()
         self.truth_of = Observer(self.world)
-        self.beliefs = Beliefs(self.world, self.room)
+        self.beliefs = Beliefs(self.world, self.room, self.oracle)
         self.senses = None if self.oracle else Senses(self.world, self.beliefs)
         self.observer = Observer(self.world, self.senses, self.truth_of.own)
         displace(self.world, rates["room"], chance)
         self.people = People(self.world, self.walks, self.says, rates["people"]["walk_per_min"], Chance(chance.seed))
-        self.eyes = Eyes(self.world, self.beliefs, self.oracle, rates["camera"], chance)
+        self.eyes = Eyes(self.world, self.beliefs, self.oracle, rates["camera"], chance, self.detector)
         planner = Planner(self.command, self.model.source) if self.command else None
         self.tasks = Tasks(self.world, self.observer, self.beliefs, planner, self.eyes, self.options)
         self.goals, self.watched, self.moved_at, self.looked_at = {}, [], -1.0, -1.0
@@ -131,7 +132,7 @@ class Driver:
         capabilities = {"hold": "all", "update": {"only": []}}
         if version >= 2:
             capabilities.update({"clock": "driver", "moved": True, "look": True, "detections": True, "told": True,
-                                 "state": True})
+                                 "state": True, "primitives": {"only": self.tasks.names()}})
         return {"protocol": version, "driver": "motet_mujoco 0.1.0", "instance": "%s-%d" % (self.instance, self.forgets),
                 "capabilities": capabilities}
 
@@ -234,6 +235,8 @@ class Driver:
 
     def truth(self, params):
         """The answer to a query by the truth of the world, whatever the robot knows."""
+        if not self.judged:
+            raise Error(METHOD_NOT_FOUND, "the truth is told with `--oracle` only")
         return {"answer": self.truth_of.answer(params["query"])}
 
     def watch(self, params):
@@ -274,7 +277,10 @@ class Driver:
         """Takes in where a thing is, for what the robot does from now on."""
         thing = params["thing"]
         position = (thing.get("pose") or {}).get("xyz")
-        self.beliefs.told(thing["id"], thing.get("support"), position)
+        if thing["id"] not in self.beliefs.entities and position is not None:
+            self.world.call(thing["id"], np.array(position, dtype=float))
+        size = None if position is None else self.eyes.size(position)
+        self.beliefs.told(thing["id"], thing.get("support"), position, thing.get("label"), size)
         self.eyes.take(thing["id"], position)
         return {}
 
@@ -304,12 +310,18 @@ class Driver:
             goal = self.goals[number]
             if goal.state != "running" or goal.is_held:
                 continue
+            outcome = None
             try:
                 next(goal.task)
             except StopIteration as done:
-                self.end(number, {"success": done.value})
+                outcome = {"success": done.value}
             except Failed as failure:
-                self.end(number, {"failure": self.failure(goal.command["primitive"], failure)})
+                outcome = {"failure": self.failure(goal.command["primitive"], failure)}
+            for text in self.tasks.planned:
+                self.report("feedback", {"goal": number, "text": text[:1000], "own_motion": True})
+            self.tasks.planned.clear()
+            if outcome is not None:
+                self.end(number, outcome)
         for person, text in self.people.tick():
             self.report("heard", {"text": text, "from": person})
         self.world.step(self.tasks.goal, self.tasks.rate)

@@ -61,10 +61,12 @@ class Eyes:
         if self.at == self.world.now:
             return self.last
         self.last = self.erred(self.truth() if self.oracle else self.matched())
+        # The surest comes first.
+        self.last.sort(key=lambda one: -one["confidence"])
         self.at = self.world.now
         self.sure = {one["id"] for one in self.last if one["id"] is not None}
         for one in self.last:
-            if one["id"] in self.world.model.free:
+            if one["id"] in self.beliefs.things():
                 # Pixels tell where it is, not how it is turned.
                 quaternion = self.world.pose(one["id"])[1] if self.oracle else None
                 self.beliefs.looked(one["id"], np.array(one["pose"]["xyz"]), quaternion)
@@ -73,9 +75,13 @@ class Eyes:
     def refresh(self):
         """Looks at what is in view. What is seen is noted, and what is not where it is believed to be is gone."""
         self.detections()
-        for thing in self.world.model.free:
+        for thing in self.beliefs.things():
             if thing not in self.sure and thing != self.beliefs.hand and self.is_gone(thing):
                 self.beliefs.forget(thing)
+        self.see_doors()
+
+    def see_doors(self):
+        """Notes which drawers and doors are seen to be open or closed."""
         for container in self.world.model.doors:
             is_open = self.sees_open(container)
             if is_open is not None:
@@ -103,7 +109,7 @@ class Eyes:
             off = self.chance.error(rates["error_per_m"] * far, "place", of)
             one["pose"]["xyz"] = [round(float(part), 4) for part in np.array(one["pose"]["xyz"]) + [*off, 0.0]]
             kept.append(one)
-        entities = self.world.model.entities
+        entities = self.beliefs.entities
         for at, one in enumerate(kept):
             alike = [other for other in kept[at + 1 :] if one["id"] and other["id"]
                      and entities[one["id"]].get("class") == entities[other["id"]].get("class")]
@@ -121,7 +127,7 @@ class Eyes:
 
     def news(self):
         """Detections that the host does not know of: things without an id, and things elsewhere than it was told."""
-        new, held = [], self.world.held()
+        new, held = [], self.beliefs.in_hand()
         self.refresh()
         for one in self.last:
             place = np.array(one["pose"]["xyz"])
@@ -143,6 +149,12 @@ class Eyes:
             new.append(one)
         return new
 
+    def size(self, position):
+        """Sides in m of what was last seen at a place, without an id; None where nothing was."""
+        near = [one for one in self.last if one["id"] is None
+                and np.linalg.norm(np.array(one["pose"]["xyz"]) - position) < ELSEWHERE]
+        return near[0]["extent"] if near else None
+
     def take(self, thing, position):
         """Notes that the host was told of a thing, and that what is in view is to be matched anew."""
         self.at = -1.0
@@ -153,7 +165,7 @@ class Eyes:
     def known(self, wanted):
         """Ids among those wanted that are in view now."""
         self.detections()
-        fixed = [one for one in wanted if one not in self.world.model.free and one in self.world.model.body_of]
+        fixed = [one for one in wanted if one not in self.beliefs.things() and one in self.world.model.body_of]
         return {one for one in wanted if one in self.sure} | {one for one in fixed if self.shows(one)}
 
     def shows(self, one):
@@ -179,9 +191,9 @@ class Eyes:
         joint, opened, _ = model.doors[container]
         leaf = [at for at in range(model.mj.ngeom) if model.mj.geom_bodyid[at] == model.body_of[container + "/door"]]
         points = [one.points()[::GRID, ::GRID][one.depth[::GRID, ::GRID] > 0.0] for one in self.pictures]
-        data, counts = mujoco.MjData(model.mj), []
+        data, counts, room = mujoco.MjData(model.mj), [], self.beliefs.room()
         for step in range(STEPS + 1):
-            data.qpos[:], data.mocap_pos[:] = self.world.data.qpos, self.world.data.mocap_pos
+            data.qpos[:], data.mocap_pos[:] = room.qpos, room.mocap_pos
             data.qpos[joint] = opened * step / STEPS
             mujoco.mj_kinematics(model.mj, data)
             counts.append(sum(np.count_nonzero(within(model.mj, data, leaf, one)) for one in points))
@@ -219,19 +231,23 @@ class Eyes:
         """What the detector finds in the pictures of all cameras, with the ids of known things."""
         found, self.pictures = [], []
         for name in self.world.model.cameras:
-            picture = self.camera.look(name)
-            self.pictures.append(picture)
-            found.extend(self.ask(dict(picture.message(), solids=self.solids())))
-        held = self.world.held()
+            self.pictures.append(self.camera.look(name))
+        for person in self.world.model.people:
+            self.beliefs.scan(person)
+        self.see_doors()
+        solids = self.solids()
+        for picture in self.pictures:
+            found.extend(self.ask(dict(picture.message(), solids=solids)))
+        held = self.beliefs.in_hand()
         for thing in held:
             # Where the hand holds it, the robot knows it.
-            self.beliefs.saw(thing, *self.world.pose(thing))
+            self.beliefs.saw(thing, *self.beliefs.held_pose(thing))
         taken = set()
         for one in found:
             one["id"] = self.match(one, taken)
             if one["id"] is not None:
                 taken.add(one["id"])
-                entity = self.world.model.entities[one["id"]]
+                entity = self.beliefs.entities[one["id"]]
                 one["label"] = (entity.get("names") or [entity.get("class") or one["id"]])[0]
                 one["pose"]["xyz"] = self.middle(one)
         parts = taken.union(held)
@@ -240,11 +256,11 @@ class Eyes:
     def middle(self, one):
         """Middle of a known thing of which a side was seen. A part of it that is seen where the thing should be says
         that it is there."""
-        entity, believed = self.world.model.entities[one["id"]], self.beliefs.entities[one["id"]]
-        is_part = np.max(one["extent"]) < PARTLY * np.max(extent(entity))
+        believed = self.beliefs.entities[one["id"]]
+        is_part = np.max(one["extent"]) < PARTLY * np.max(extent(believed))
         if is_part and self.beliefs.gap(one["id"], one["pose"]["xyz"]) in (None, 0.0) and "pose" in believed:
             return [round(float(part), 4) for part in believed["pose"]["xyz"]]
-        return centred(one, entity)
+        return centred(one, believed)
 
     def is_part(self, one, taken):
         """True for a detection that is a part of a thing of which another part was recognised, as where something
@@ -256,9 +272,9 @@ class Eyes:
         """Id of the believed thing that a detection fits best; None for something new."""
         position, size = np.array(one["pose"]["xyz"]), np.array(one["extent"])
         best = None
-        for thing in self.world.model.free:
-            entity = self.beliefs.entities.get(thing)
-            if entity is None or thing in taken or not painted(entity, one["label"]):
+        for thing in self.beliefs.things():
+            entity = self.beliefs.entities[thing]
+            if thing in taken or not painted(entity, one["label"]):
                 continue
             off, like = self.off(entity, position), unlike(size, extent(entity))
             if off is not None and off <= ABOUT and like <= UNLIKE or off is None and like <= UNLIKE_ANYWHERE:
@@ -294,8 +310,8 @@ class Eyes:
         return json.loads(line)["detections"]
 
     def solids(self):
-        """Known furniture with its drawers and doors as they now are, people, and the robot itself."""
-        model, data = self.world.model, self.world.data
+        """Known furniture with its drawers and doors and people as they are believed to be, and the robot itself."""
+        model, data = self.world.model, self.beliefs.room()
         solids = []
         for at in range(model.mj.ngeom):
             owner = model.geom_owner[at]

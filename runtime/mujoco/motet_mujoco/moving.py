@@ -38,6 +38,7 @@ class Mover:
 
     def __init__(self, world, observer, beliefs, planner, options):
         self.world, self.observer, self.beliefs = world, observer, beliefs
+        self.planned = []  # motions of its own that nobody was told of
         self.planner, self.options = planner, options
         self.goal = world.target.copy()  # targets that the tasks aim at
         self.rate = np.zeros_like(self.goal)
@@ -138,9 +139,11 @@ class Mover:
             points = self.points(witness)
             if np.abs(points[0] - self.goal)[self.arm_and_base()].max() <= BEGINS:
                 return self.timed(points, witness["path"], motion.speed)
+        follows = "its witness begins elsewhere" if witness is not None else "it has no witness"
         witness, why = self.planner.plan(self.beliefs.now(), query)
         if witness is None:
             raise Failed(KINDS.get(why[0], fail), why[1])
+        self.planned.append("%s, %s" % (query, follows))
         return self.own(witness, motion)
 
     def timed(self, points, path, speed):

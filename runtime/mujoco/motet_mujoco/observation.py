@@ -35,6 +35,9 @@ class Observer:
 
     def __init__(self, world, room=None, own=None):
         self.world, self.model, self.room = world, world.model, room or world
+        # What the robot knows of.
+        self.entities = world.model.entities if room is None else room.beliefs.entities
+        self.things = lambda: world.model.free if room is None else room.beliefs.things()
         self.own = own or Own(world)
 
     def answer(self, query):
@@ -55,18 +58,18 @@ class Observer:
         first, rest = patterns[0], patterns[1:]
         if first != "any":
             return self.some(fluent, rest, [*chosen, named(first["is"])])
-        found = [self.some(fluent, rest, [*chosen, one]) for one in [*self.model.entities, "robot", "hand"]]
+        found = [self.some(fluent, rest, [*chosen, one]) for one in [*self.entities, "robot", "hand"]]
         if any(found):
             return True
         return False if False in found else None
 
     def fact(self, fluent, args):
         """A fluent of entities."""
-        model = self.model
-        if len(args) == 2 and fluent in ("at", "on", "in") and args[0] in model.entities and args[1] not in model.entities:
+        entities = self.entities
+        if len(args) == 2 and fluent in ("at", "on", "in") and args[0] in entities and args[1] not in entities:
             is_start = (fluent, args[1]) == ("at", "start") and not self.room.is_lifted(args[0])
             return self.stands(args[0], self.own.start) if is_start else False
-        if any(one not in model.entities and one not in ("robot", "hand") for one in args):
+        if any(one not in entities and one not in ("robot", "hand") for one in args):
             return None
         if len(args) == 2:
             return self.relation(fluent, *args)
@@ -86,7 +89,7 @@ class Observer:
 
     def state(self, fluent, one):
         """A fluent of one entity."""
-        room, thing = self.room, self.model.entities[one]
+        room, thing = self.room, self.entities[one]
         if fluent == "holding":
             return room.holds(one)
         if fluent == "lifted":
@@ -94,7 +97,7 @@ class Observer:
         if fluent == "visible":
             return self.is_visible(one)
         if fluent == "located":
-            return room.is_located(one) if one in self.model.free else self.is_visible(one)
+            return room.is_located(one) if one in self.things() else self.is_visible(one)
         if fluent == "near":
             gap = self.gap(one)
             return None if gap is None else gap - self.radius <= NEAR
@@ -102,11 +105,11 @@ class Observer:
             return self.serves(one)
         if fluent == "open":
             opened = room.is_open(one)
-            return thing.get("open") if opened is None else opened
+            return thing.get("open") if opened is None and one not in self.model.doors else opened
         if fluent == "locked":
             return room.is_locked(one)
         if fluent == "clear":
-            return not any(room.is_on(other, one) for other in self.model.free)
+            return not any(room.is_on(other, one) for other in self.things())
         if fluent == "visited":
             return one in self.own.visited
         return True if fluent == "standing" and thing["kind"] == "Person" else None
@@ -120,8 +123,8 @@ class Observer:
             return None
         if one == to:
             return False
-        kind = model.entities[to]["kind"]
-        if one not in model.free:
+        kind = self.entities[to]["kind"]
+        if one not in self.things():
             return self.stands(one, self.point(to)) if fluent == "at" and kind in ("Place", "Zone") else False
         if fluent == "on":
             return room.is_on(one, to)
@@ -136,13 +139,13 @@ class Observer:
 
     def point(self, place):
         """Where a place is in the plane; None if nobody says."""
-        at = self.model.entities[place].get("pose")
+        at = self.entities[place].get("pose")
         return None if at is None else np.array(at["xyz"][:2])
 
     def stands(self, one, point):
         """True if an entity stands about at a point; None where it is not known."""
         if self.room.pose(one) is None:
-            return None if one in self.model.free else False
+            return None if one in self.things() else False
         pose = self.room.pose(one)[0]
         return point is not None and bool(np.hypot(*(pose[:2] - point)) <= AT_PLACE)
 
@@ -152,11 +155,11 @@ class Observer:
 
     def gap(self, one, outline=True):
         """Distance in the plane from the axis of the base to an entity, or to its outline."""
-        entity = self.model.entities[one]
+        entity = self.entities[one]
         pose = self.room.pose(one)
         if pose is not None:
             position, quaternion = pose
-        elif "pose" in entity and one not in self.model.free:
+        elif "pose" in entity and one not in self.things():
             position, quaternion = np.array(entity["pose"]["xyz"]), None
         else:
             return None
@@ -176,7 +179,7 @@ class Observer:
 
     def serves(self, one):
         """True if the robot serves an entity from where its base stands."""
-        kind, reach = self.model.entities[one]["kind"], self.model.card[1]
+        kind, reach = self.entities[one]["kind"], self.model.card[1]
         if kind in ("Place", "Zone"):
             gap, most = self.gap(one), AT_PLACE
         elif kind == "Person":
@@ -194,7 +197,7 @@ class Observer:
 
         What the scene says counts until the base has moved or the thing has.
         """
-        entity = self.model.entities[one]
+        entity = self.entities[one]
         if self.own.unmoved and one not in self.own.moved and "visible" in entity:
             return bool(entity["visible"])
         return self.room.is_visible(one)
@@ -204,7 +207,7 @@ class Observer:
         world, model = self.world, self.model
         if measure == "distance" and args:
             one = named(args[0])
-            gap = self.gap(one) if one in model.entities else None
+            gap = self.gap(one) if one in self.entities else None
             return None if gap is None else max(gap - self.radius, 0.0)
         if measure == "battery":
             return max(0.0, 1.0 - 1e-4 * world.now - 1e-3 * self.own.driven)
@@ -214,7 +217,7 @@ class Observer:
 
     def field(self, entity, field):
         """A field of an entity."""
-        known = self.model.entities.get(entity)
+        known = self.entities.get(entity)
         if known is None:
             return None
         if field == "mass":

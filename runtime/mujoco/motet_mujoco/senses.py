@@ -6,7 +6,7 @@ It answers the questions that `World` answers about itself. None means that the 
 import numpy as np
 
 from .beliefs import turned
-from .sight import is_visible, scans
+from .sight import is_visible
 
 # Ticks for which the fingers have to be closed on nothing before the hand counts as empty.
 EMPTY = 12
@@ -29,8 +29,7 @@ class Senses:
 
     def held(self):
         """The thing that the robot has grasped, as long as its fingers meet something."""
-        held = self.beliefs.hand
-        return [held] if held is not None and self.world.is_gripping() else []
+        return self.beliefs.in_hand()
 
     def holds(self, thing):
         """True if the hand holds a thing."""
@@ -44,20 +43,16 @@ class Senses:
     def pose(self, entity):
         """Position and rotation of an entity; None if it is not known, or the entity has no body."""
         world, model = self.world, self.world.model
-        if entity in model.free and not self.holds(entity):
+        if self.holds(entity):
+            return self.beliefs.held_pose(entity)
+        if entity in self.beliefs.things():
             known = self.beliefs.entities.get(entity, {}).get("pose")
             return None if known is None else (np.array(known["xyz"], dtype=float), turned(known))
         if entity in model.people:
-            self.scan(entity)
+            self.beliefs.scan(entity)
             known = self.beliefs.entities.get(entity, {}).get("pose")
             return None if known is None else (np.array(known["xyz"], dtype=float), turned(known))
         return world.pose(entity)
-
-    def scan(self, person):
-        """Notes where a person is, if the laser scanner meets them."""
-        world = self.world
-        if scans(world.model, world.data, world.base(), person):
-            self.beliefs.saw(person, world.pose(person)[0])
 
     def support(self, thing):
         """(relation, support) of a thing, (None, None) where it is believed to be on and in nothing, or None if nobody
@@ -98,7 +93,7 @@ class Senses:
         return None if self.support(thing) is None else False
 
     def is_open(self, container):
-        """True if a drawer or a door is open; None without one."""
+        """True if a drawer or a door is open; None where nobody knows, or without one."""
         if container not in self.world.model.doors:
             return None
         return self.beliefs.entities.get(container, {}).get("open")

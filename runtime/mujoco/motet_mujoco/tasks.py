@@ -25,6 +25,10 @@ class Tasks(Mover):
         self.eyes, self.said = eyes, []
         self.answers = list(options.answers)
 
+    def names(self):
+        """Names of the primitives."""
+        return sorted(name[3:] for name in dir(self) if name.startswith("do_"))
+
     def task(self, command):
         """The task of a command; None where there is none."""
         run = getattr(self, "do_" + command["primitive"], None)
@@ -127,10 +131,12 @@ class Tasks(Mover):
 
     def do_grasp(self, args, motion):
         thing, at = entity(args["object"]), args.get("at", {}).get("pose")
-        place = None if at is None else np.array(at["xyz"], dtype=float)
-        if place is not None:
+        query = "reach(%s)" % quoted(thing)
+        if at is not None:
+            place = np.array(at["xyz"], dtype=float)
             self.check_grasp(thing, place)
-        yield from self.grasp(thing, "reach(%s)" % quoted(thing), motion, place)
+            query = "reach_at(%s, pose(%.4f m, %.4f m, %.4f m, 0 rad))" % (quoted(thing), *place)
+        yield from self.grasp(thing, query, motion)
 
     def check_grasp(self, thing, place):
         """Checks a point that the hand is to close at: within reach, and at the thing."""
@@ -161,20 +167,10 @@ class Tasks(Mover):
             moved[at] = target
         return moved
 
-    def to_point(self, points, place):
-        """Points of a way on which the fingers close in the plane across them through a point."""
-        tip, rotation = self.frame(points[-1])
-        across = rotation[:, 0]
-        return self.aside(points, across * float(across @ (place - tip)))
-
-    def grasp(self, thing, query, motion, place=None):
+    def grasp(self, thing, query, motion):
         """Reaches a thing and closes the hand around it. Gives the path of the way there."""
         path = self.motion(motion, query)
         points = path.points
-        if place is not None:
-            points = self.to_point(points, place)
-            if points is None:
-                raise Failed("unreachable", "the hand does not reach the point on %s" % thing)
         dx, dy = self.options.chance.error(self.options.rates["hand"]["error_m"], "hand", thing)
         path = path.to(self.aside(points, np.array([dx, dy, 0.0])) or points)
         yield from self.follow(path, thing)
@@ -231,22 +227,19 @@ class Tasks(Mover):
         path = path.until(approach)
         yield from self.follow(path, on, self.keeps(thing))
         # Where it is let go is felt; where it comes to rest is for the next look.
-        released = world.pose(thing)
+        released = self.beliefs.held_pose(thing)
         self.beliefs.hand = None
         self.beliefs.looked(thing, *released)
         yield from self.grip(False, 0.8)
         yield from self.straight(-0.08 * world.tip()[1][:, 2])
         yield from self.way_back(path, begun, motion, None)
-        where = "in" if world.is_in(thing, on) else "on" if world.is_on(thing, on) else None
-        self.beliefs.rests(thing, where, on)
-        if where is None:
-            self.beliefs.forget(thing)
-        else:
-            self.beliefs.saw(thing, *released)
-            self.beliefs.seen.add(thing)
         self.observer.own.moved.add(thing)
-        if where is None:
+        if not world.is_in(thing, on) and not world.is_on(thing, on):
+            self.beliefs.forget(thing)
             raise Failed("slipped", "%s does not rest on %s" % (thing, on))
+        known = self.beliefs.entities[thing]
+        if on not in (known.get("on"), known.get("in")):
+            self.beliefs.rests(thing, "in" if self.beliefs.entities[on]["kind"] == "Container" else "on", on)
 
     def do_handover(self, args, motion):
         world = self.world
@@ -261,7 +254,7 @@ class Tasks(Mover):
             raise Failed("refused", "%s does not take it" % person)
         at = world.model.people[person]
         world.carried_by[thing] = (person, world.pose(thing)[0] - world.data.mocap_pos[at])
-        released = world.pose(thing)
+        released = self.beliefs.held_pose(thing)
         self.beliefs.hand = None
         yield from self.grip(False, 0.8)
         self.beliefs.rests(thing, None, None)
@@ -280,7 +273,7 @@ class Tasks(Mover):
     def swing(self, what, query, opens, motion):
         """Opens or closes a container by its handle."""
         world, begun = self.world, self.goal.copy()
-        if world.is_open(what) is opens:
+        if self.observer.room.is_open(what) is opens:
             return
         path = self.motion(motion, "%s(%s)" % (query, quoted(what)))
         parts = phases(path.points, world.model.grips)
@@ -295,8 +288,9 @@ class Tasks(Mover):
         if not any(deed == "release" for deed, _ in parts) and any(deed == "grip" for deed, _ in parts):
             yield from self.grip(False, 0.6)
             yield from self.straight(-0.08 * world.tip()[1][:, 2])
+        # After a motion that failed, only a look tells how far it came.
         is_open = world.is_open(what)
-        self.beliefs.opened(what, is_open)
+        self.beliefs.opened(what, is_open if is_open is opens or self.beliefs.oracle else None)
         yield from self.home_again(begun, motion)
         if is_open is not opens:
             if world.is_locked(what):
@@ -325,14 +319,14 @@ class Tasks(Mover):
         except NoGraphics as error:
             raise Failed("not_found", str(error)) from None
         for one in wanted:
-            if one in found or one not in self.world.model.body_of:
+            if one in found or one not in self.beliefs.entities:
                 continue
             try:
                 yield from self.look(one, motion if len(wanted) == 1 else Motion(None))
             except Failed:
                 continue
             found |= self.eyes.known(wanted)
-            if one not in found and one in self.world.model.free and not self.world.holds(one):
+            if one not in found and one in self.beliefs.things() and one not in self.beliefs.in_hand():
                 # It is not where it should be: anything alike in view is it.
                 self.beliefs.forget(one)
                 self.eyes.at = -1.0
@@ -341,8 +335,8 @@ class Tasks(Mover):
 
     def objects(self, what):
         """Objects that a description fits."""
-        model = self.world.model
-        return [one for one in self.beliefs.matches(what) if model.entities[one]["kind"] not in
+        known = self.beliefs.entities
+        return [one for one in self.beliefs.matches(what) if known[one]["kind"] not in
                 ("Surface", "Container", "Person", "Place", "Zone")]
 
     def do_detect(self, args, motion):

@@ -18,6 +18,8 @@ PRESSES = 0.2
 OPENED = 0.6
 # Distance in m up to which a thing at rest may sink into what bears it.
 SINKS = 0.02
+# Distance in m from a thing within which a name that the host gives is of it.
+ABOUT = 0.15
 # Share of its travel from its end to which a finger that is told to close has closed on nothing.
 CLOSED = 0.02
 
@@ -30,7 +32,8 @@ class World:
         self.data = mujoco.MjData(model.mj)
         self.reacher = Reacher(model)
         self.integral = np.zeros(model.mj.nu)
-        self.carried_by = {}
+        # Things in the hands of people, and things by the names that the host gave them.
+        self.carried_by, self.called = {}, {}
         # Contacts of what sleeps too, found when asked for.
         self.scratch, self.near_at, self.nearby = mujoco.MjData(model.mj), -1.0, []
         self.error = np.zeros(2)  # greatest error of the tip since `measure`, in m and rad
@@ -107,7 +110,7 @@ class World:
 
     def pose(self, entity):
         """Position and rotation (w, x, y, z) of an entity; None without a body."""
-        at = self.model.body_of.get(entity)
+        at = self.model.body_of.get(self.called.get(entity, entity))
         if at is None:
             return None
         return self.data.xpos[at].copy(), self.data.xquat[at].copy()
@@ -116,6 +119,13 @@ class World:
         """Position of a thing in the frame of the hand."""
         place, rotation = self.tip()
         return rotation.T @ (self.pose(thing)[0] - place)
+
+    def call(self, name, position):
+        """Notes what the host calls the thing that is at about a position."""
+        far = {thing: float(np.linalg.norm(self.pose(thing)[0] - position)) for thing in self.model.free}
+        nearest = min(far, key=far.get, default=None)
+        if nearest is not None and far[nearest] < ABOUT:
+            self.called[name] = nearest
 
     def settle_in_hand(self, thing):
         """Closes the fingers around a thing that has no weight meanwhile."""
@@ -132,7 +142,7 @@ class World:
 
     def place(self, thing, position, quaternion=None):
         """Puts a thing somewhere, at rest."""
-        at, dof = self.model.free[thing]
+        at, dof = self.model.free[self.called.get(thing, thing)]
         self.data.qpos[at : at + 3] = position
         if quaternion is not None:
             self.data.qpos[at + 3 : at + 7] = quaternion
@@ -203,7 +213,7 @@ class World:
 
     def touching(self, entity):
         """Contacts of an entity: (other geom, normal towards the entity, force)."""
-        owner = self.model.geom_owner
+        owner, entity = self.model.geom_owner, self.called.get(entity, entity)
         for one, other, normal, force in self.contacts():
             if owner[other] == entity:
                 yield one, normal, force
@@ -226,7 +236,7 @@ class World:
 
     def holds(self, thing):
         """True if the hand holds a thing."""
-        return thing in self.held()
+        return self.called.get(thing, thing) in self.held()
 
     def is_gripping(self):
         """True if the fingers, told to close, meet something before their end: by the joints of the hand alone."""
@@ -244,7 +254,7 @@ class World:
 
     def bearers(self, thing):
         """What a thing rests on, apart from the hand: ids, or `floor`."""
-        model, found = self.model, []
+        model, found, thing = self.model, [], self.called.get(thing, thing)
         for one, other, normal in self.near():
             for geom, borne, up in ((one, other, normal[2]), (other, one, -normal[2])):
                 if model.geom_owner[borne] == thing and up > 0.5 and geom not in model.hand_geoms:

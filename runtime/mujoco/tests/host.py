@@ -83,3 +83,8 @@ def text(one):
 def pose(place):
     """Value of a pose."""
     return {"pose": {"xyz": place, "quaternion": [0.0, 0.0, 0.0, 1.0]}}
+
+
+def fact(fluent, *args, holds=True):
+    """A fact of `hello`."""
+    return {"query": {"fact": {"fluent": fluent, "args": [{"is": {"entity": one}} for one in args]}}, "holds": holds}

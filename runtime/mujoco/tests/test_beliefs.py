@@ -1,10 +1,11 @@
 """What the robot holds to be true: the room that it was told of, words of the host, and pixels."""
 
 import json
+import sys
 
 import numpy as np
 import pytest
-from host import Host, entity, text
+from host import Host, entity, fact, text
 from motet_mujoco.beliefs import Beliefs
 from motet_mujoco.camera import NoGraphics
 from motet_mujoco.driver import Driver, Options
@@ -66,6 +67,19 @@ def test_a_thing_elsewhere_than_told_is_found_once_the_host_says_where(drive, ro
     assert host.holds("holding", "mug_1")
 
 
+def test_any_program_can_be_the_detector(drive, tmp_path):
+    program = tmp_path / "detector.py"
+    program.write_text('''
+import json, sys
+for line in sys.stdin:
+    pose = {"xyz": [1.8, 0.3, 0.8], "quaternion": [0.0, 0.0, 0.0, 1.0]}
+    one = {"label": "teapot", "id": None, "pose": pose, "extent": [0.1, 0.1, 0.1], "confidence": 0.8}
+    print(json.dumps({"detections": [one]}), flush=True)
+''')
+    host = drive("hsr", "kitchen", "--detector", "'%s' '%s'" % (sys.executable, program))
+    assert [one["label"] for one in host.call("detections")["detections"]] == ["teapot"]
+
+
 def test_a_hand_over_leaves_nothing_unknown(drive):
     host = drive("hsr", "kitchen")
     host.carry_out("go", to=entity("kitchen_table"))
@@ -116,13 +130,27 @@ def test_a_field_that_the_scene_leaves_out_follows_from_the_shape(motet):
 @pytest.fixture
 def behind(motet):
     """A driver in the same process whose robot sees by pixels, before the kitchen table."""
-    driver = Driver(load("hsr", "kitchen", motet), motet, Options())
+    driver = Driver(load("hsr", "kitchen", motet), motet, Options(), judged=True)
     try:
         driver.eyes.look()
     except NoGraphics as error:
         pytest.skip(str(error))
     yield driver
     driver.eyes.close()
+
+
+def start(driver, goal, primitive, **args):
+    """Starts a primitive of a driver in the same process."""
+    args = [(key, {"entity": one}) for key, one in args.items()]
+    driver.start({"goal": goal, "command": {"primitive": primitive, "args": args}})
+
+
+def carry_out_by(driver, goal, primitive, **args):
+    """Carries a primitive out."""
+    start(driver, goal, primitive, **args)
+    while driver.goals[goal].state == "running":
+        driver.tick()
+    assert driver.goals[goal].state == {"ended": {"success": None}}, driver.goals[goal].state
 
 
 def truths(driver, fluent, *args):
@@ -193,19 +221,9 @@ def test_what_the_fingers_lose_is_noticed_by_their_joints(behind, motet):
 def test_a_placement_that_is_interrupted_after_the_release_is_known(behind):
     """The robot felt where it let the mug go, whatever becomes of its way back."""
 
-    def start(goal, primitive, **args):
-        args = [(key, {"entity": one}) for key, one in args.items()]
-        behind.start({"goal": goal, "command": {"primitive": primitive, "args": args}})
-
-    def carry_out(goal, primitive, **args):
-        start(goal, primitive, **args)
-        while behind.goals[goal].state == "running":
-            behind.tick()
-        assert behind.goals[goal].state == {"ended": {"success": None}}, behind.goals[goal].state
-
-    carry_out(1, "go", to="kitchen_table")
-    carry_out(2, "pick", object="mug_1")
-    start(3, "place", object="mug_1", on="kitchen_table")
+    carry_out_by(behind, 1, "go", to="kitchen_table")
+    carry_out_by(behind, 2, "pick", object="mug_1")
+    start(behind, 3, "place", object="mug_1", on="kitchen_table")
     while behind.beliefs.hand == "mug_1":
         behind.tick()
     for _ in range(250):
@@ -216,6 +234,60 @@ def test_a_placement_that_is_interrupted_after_the_release_is_known(behind):
     assert truths(behind, "holding", "mug_1") == ({"truth": False}, {"truth": False})
     off = np.array(behind.beliefs.entities["mug_1"]["pose"]["xyz"]) - behind.world.pose("mug_1")[0]
     assert np.linalg.norm(off) < 0.03
+
+
+def test_the_truth_is_for_judges_alone(behind):
+    query = fact("holding", "mug_1")["query"]
+    assert behind.truth({"query": query})["answer"] == {"truth": False}
+    behind.judged = False
+    said = []
+    behind.say = said.append
+    behind.take(json.dumps({"id": 1, "method": "truth", "params": {"query": query}}))
+    assert "--oracle" in said[0]["error"]["message"]
+
+
+def test_what_the_robot_believes_is_not_read_off_the_world(behind, monkeypatch):
+    """What is in its hand it knows by its fingers and by where it closed them, and doors by pixels."""
+    carry_out_by(behind, 1, "go", to="kitchen_table")
+    carry_out_by(behind, 2, "pick", object="mug_1")
+    world = behind.world
+    place = world.pose("mug_1")[0]
+
+    def truth(*_):
+        raise AssertionError("the robot cannot know this")
+
+    for name in ("held", "holds", "is_open", "is_on", "is_in", "bearers", "supports", "opening"):
+        monkeypatch.setattr(world, name, truth)
+    behind.eyes.at = behind.looked_at = -1.0
+    behind.eyes.refresh()
+    assert behind.observe({"query": fact("holding", "mug_1")["query"]})["answer"] == {"truth": True}
+    assert behind.observe({"query": fact("open", "drawer_1")["query"]})["answer"] == {"truth": False}
+    scene = behind.beliefs.now()
+    assert scene["robot"]["holding"] == "mug_1"
+    assert np.linalg.norm(behind.beliefs.held_pose("mug_1")[0] - place) < 0.03
+    # What slips within the fingers is not felt.
+    at = world.model.free["mug_1"][0]
+    world.data.qpos[at + 2] -= 0.02
+    world.refresh()
+    assert np.allclose(behind.beliefs.now()["robot"]["grip"]["xyz"], scene["robot"]["grip"]["xyz"])
+
+
+def test_a_thing_that_the_host_names_appears_under_its_id(motet, room):
+    model = load("hsr", "kitchen", motet)
+    told = {**model.scene, "entities": [one for one in model.scene["entities"] if one["id"] != "mug_1"]}
+    driver = Driver(model, motet, Options(), told=told)
+    place = [float(part) for part in driver.world.pose("mug_1")[0]]
+    query = fact("at", "red_cylinder_1", "kitchen_table")["query"]
+    assert driver.observe({"query": query})["answer"] == "unknown", "it has never heard of it"
+    driver.eyes.last = [{"id": None, "label": "red cylinder", "extent": [0.08, 0.08, 0.1], "confidence": 0.9,
+                         "pose": {"xyz": place, "quaternion": [0.0, 0.0, 0.0, 1.0]}}]
+    driver.told({"thing": {"id": "red_cylinder_1", "label": "red cylinder", "pose": {"xyz": place}}})
+    assert driver.observe({"query": query})["answer"] == {"truth": True}
+    carry_out_by(driver, 1, "go", to="kitchen_table")
+    carry_out_by(driver, 2, "pick", object="red_cylinder_1")
+    assert driver.observe({"query": fact("holding", "red_cylinder_1")["query"]})["answer"] == {"truth": True}
+    assert driver.world.held() == ["mug_1"]
+    driver.eyes.close()
 
 
 def test_an_oracle_knows_what_is_behind_it(motet):

@@ -1,8 +1,11 @@
 """What pixels tell: things by colour, size and shape, with the ids of what is known."""
 
+import sys
+import types
+
 import numpy as np
 import pytest
-from motet_mujoco import detector
+from motet_mujoco import detector, open_vocabulary
 from motet_mujoco.beliefs import Beliefs
 from motet_mujoco.camera import Camera, NoGraphics
 from motet_mujoco.eyes import Eyes
@@ -98,6 +101,30 @@ def test_open_vocabulary_with_random_weights(kitchen):
     found = OpenVocabulary(model, processor, ["red mug", "apple"], threshold=0.0).detect(picture)
     assert all(one["label"] in ("red mug", "apple") and len(one["extent"]) == 3 for one in found)
     assert place(picture, (0, 0, 1, 1)) is None
+
+
+def test_open_vocabulary_loads_a_folder(monkeypatch, tmp_path):
+    """The program loads the model and its processor of a folder, and answers lines with what they find."""
+    asked = []
+
+    class Part:
+        def __init__(self, name):
+            self.name, self.is_frozen = name, False
+
+        @classmethod
+        def from_pretrained(cls, folder):
+            asked.append((cls.__name__, folder))
+            return cls(folder)
+
+        def eval(self):
+            self.is_frozen = True
+            return self
+
+    kinds = {name: type(name, (Part,), {}) for name in ("Owlv2ForObjectDetection", "Owlv2Processor")}
+    monkeypatch.setitem(sys.modules, "transformers", types.SimpleNamespace(**kinds))
+    loaded = open_vocabulary.OpenVocabulary.load(str(tmp_path), ["red mug"], 0.3)
+    assert sorted(asked) == [(name, str(tmp_path)) for name in sorted(kinds)]
+    assert loaded.model.is_frozen and loaded.words == ["red mug"] and loaded.threshold == 0.3
 
 
 def test_the_camera_has_no_window(kitchen):

@@ -2,9 +2,11 @@
 
 import json
 import os
+import subprocess
+import sys
 
 import pytest
-from host import Host, entity, pose, text
+from host import Host, entity, fact, pose, text
 from motet_mujoco.driver import Driver, Error, Options, serve
 from motet_mujoco.model import load
 
@@ -29,7 +31,11 @@ def drive(motet):
 def test_fetching_a_mug(drive):
     host = drive("hsr", "kitchen")
     assert host.welcome["capabilities"]["clock"] == "driver"
+    assert {"go", "pick", "wake_up"} <= set(host.welcome["capabilities"]["primitives"]["only"])
     assert host.carry_out("go", to=entity("kitchen_table")) == {"success": None}
+    # Without a witness the driver plans by itself, and says so.
+    said = [one["params"] for one in host.reports if one["method"] == "feedback"]
+    assert [one["text"] for one in said] == ["go_to(kitchen_table), it has no witness"] and said[0]["own_motion"]
     assert host.holds("at", "robot", "kitchen_table") and not host.holds("at", "robot", "counter")
     assert host.carry_out("detect", what=text("the red mug")) == {"success": {"entity": "mug_1"}}
     assert host.carry_out("detect", what=text("purple elephant"))["failure"]["kind"] == "not_found"
@@ -149,6 +155,14 @@ def test_the_same_calls_give_the_same_reports(drive):
     assert first != run("4")
 
 
+def test_the_driver_keeps_the_laws(motet):
+    here = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+    driver = "'%s' -m motet_mujoco --robot panda --scene lab --motet '%s' --oracle" % (sys.executable, motet)
+    checked = subprocess.run([motet, "run", "--check", "--driver", driver], text=True, capture_output=True, timeout=900,
+                             env=dict(os.environ, PYTHONPATH=here), check=False)
+    assert checked.returncode == 0, checked.stdout + checked.stderr
+
+
 def test_nothing_moves_before_the_host_has_greeted(motet, monkeypatch):
     """A machine that is slow to start must not change what happens: the world began to move by the wall clock."""
     driver = Driver(load("hsr", "kitchen", motet), motet, Options(), oracle=True)
@@ -173,15 +187,10 @@ def test_looking(drive):
     assert "error" in host.call("look", camera="nose")
 
 
-def fact(fluent, *args, holds=True):
-    """A fact of `hello`."""
-    return {"query": {"fact": {"fluent": fluent, "args": [{"is": {"entity": one}} for one in args]}}, "holds": holds}
-
-
 @pytest.mark.parametrize("robot, scene, thing", [("hsr", "kitchen", "mug_1"), ("hsr", "living_room", "remote_1"),
                                                  ("anymal_z1", "lab", "sample")])
 def test_a_state_begins_with_the_thing_upright_in_the_hand(motet, robot, scene, thing):
-    driver = Driver(load(robot, scene, motet), motet, Options())
+    driver = Driver(load(robot, scene, motet), motet, Options(), judged=True)
     driver.hello({"protocol": 2, "run": "test", "state": [fact("holding", thing)]})
     for _ in range(250):
         driver.tick()
