@@ -7,7 +7,7 @@ use std::rc::Rc;
 
 use motet_graph::Graph;
 use motet_host::remote::{DriverLog, LineFrom, RemoteDriver};
-use motet_runtime::conformance::{ConformanceSubject, check_scenes};
+use motet_runtime::conformance::{ConformanceSubject, check_perception, check_scenes};
 use motet_runtime::{
     Command, Driver, DriverClock, DriverEvent, Effect, Engine, Event, GoalId, Pattern, Query, StartState,
     Time,
@@ -67,6 +67,8 @@ pub fn check(
     if !greeted.capabilities().primitives.contains(&command.primitive) {
         return Err(format!("{driver} does not have `{}`: check it with another call", command.primitive));
     }
+    // In real time no two looks are at the same time.
+    let sees = is_virtual && (greeted.capabilities().look || greeted.capabilities().detections);
     drop(greeted);
     let patience = match (patience_secs, is_virtual) {
         (Some(secs), _) => secs,
@@ -94,7 +96,7 @@ pub fn check(
         patience: Time::from_secs(patience),
         is_virtual,
     };
-    let (mut broken, mut unreachable) = (0, None);
+    let (mut broken, mut unreachable, mut is_over) = (0, None, false);
     check_scenes(&mut subject, &mut |name, violations| {
         let transcript = transcript.take();
         if transcript.unreachable.is_some() {
@@ -105,12 +107,24 @@ pub fn check(
         let others = transcript.breaches.into_iter().map(|told| ("a driver reports only what is so", told));
         let scene = DriverScene { name, broken: laws.chain(others).collect(), messages: transcript.lines };
         broken += scene.broken.len();
-        each(scene)
+        let goes_on = each(scene);
+        is_over = goes_on.is_break();
+        goes_on
     });
-    match unreachable {
-        Some(why) => Err(why),
-        None => Ok(DriverResult { driver, broken }),
+    if let Some(why) = unreachable {
+        return Err(why);
     }
+    if sees && !is_over {
+        let mut eyes = connect(Box::new(TranscriptLog(Rc::clone(&transcript))))?;
+        let told = check_perception(&mut eyes, &[Time::ZERO]);
+        let Transcript { lines, breaches, .. } = transcript.take();
+        let laws =
+            told.into_iter().chain(breaches).map(|told| ("what a driver sees is of now, and possible", told));
+        let scene = DriverScene { name: "a look", broken: laws.collect(), messages: lines };
+        broken += scene.broken.len();
+        let _: ControlFlow<()> = each(scene);
+    }
+    Ok(DriverResult { driver, broken })
 }
 
 /// First call of a policy, if it starts before anything is observed.

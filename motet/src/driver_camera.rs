@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use motet_host::remote::RemoteDriver;
-use motet_runtime::{CameraImage, Driver as _, Perception, RgbdView, Time};
+use motet_runtime::{CameraImage, Perception, RgbdView, Time};
 use motet_sim::Sim;
 
 /// Pictures of a driver that somebody else drives.
@@ -20,14 +20,14 @@ impl Perception for DriverCamera {
     fn image(&mut self, now: Time) -> Option<CameraImage> {
         match self {
             Self::Simulator(simulator) => simulator.image(now),
-            Self::Process(driver) => Some(driver.look(now, None)?.image),
+            Self::Process(driver) => driver.image(now),
         }
     }
 
     fn view(&mut self, now: Time, of: &str) -> Option<RgbdView> {
         match self {
             Self::Simulator(simulator) => simulator.view(now, of),
-            Self::Process(driver) => driver.look(now, None),
+            Self::Process(driver) => driver.view(now, of),
         }
     }
 }

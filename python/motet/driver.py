@@ -144,11 +144,15 @@ class Goal:
         """Some value of the type of its result, for drivers that only pretend to move."""
         return example(self.result_type)
 
-    async def feedback(self, text: str) -> None:
-        """Says something to people and the journal; the host keeps at most 1,000 characters. Gives other goals a turn."""
+    async def feedback(self, text: str, *, own_motion: bool = False) -> None:
+        """Says something to people and the journal; the host keeps at most 1,000 characters. Gives other goals a turn.
+
+        Set `own_motion` where the driver plans a motion itself and does not follow the witness of `motion`.
+        """
         if self._session is not None:
             # A longer line would count as a flood, and end the connection.
-            self._session.report("feedback", {"goal": self.number, "text": text[:LONGEST]})
+            said = {"goal": self.number, "text": text[:LONGEST]}
+            self._session.report("feedback", {**said, "own_motion": True} if own_motion else said)
         await asyncio.sleep(0)
 
     def not_held(self) -> None:

@@ -24,6 +24,7 @@ pub(crate) fn feasible(
     arm_m: Option<f64>,
 ) -> PyResult<Verdicts> {
     let question = FeasibilityQuestion {
+        state: None,
         robot,
         scene,
         motions: motions.as_deref().map_or(Motions::All, Motions::These),

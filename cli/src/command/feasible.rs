@@ -23,8 +23,7 @@ use crate::report::{Progress, Report};
     offer(OBJECT, PERSON), pull(CONTAINER), push(ENTITY), look(ENTITY), posture(NAME) or\n\
     stand_at(pose(1.2 m, 0.5 m, 90 deg)). A place has rules: put(OBJECT, ENTITY, near: ENTITY),\n\
     and likewise beside: ENTITY, away_from_edge: 10 cm, upright: false, at: pose(…).\n\
-    The scene defines the object in the hand:\n\
-    \"robot\": {\"holding\": …}.\n\
+    The scene or the state defines the object in the hand: \"robot\": {\"holding\": …}.\n\
     Exit codes: 0 all motions of --for are feasible, 1 one is not or is unknown, 2 could not run.")]
 pub(crate) struct FeasibleArgs {
     /// Robot: a built-in name (see `motet robots`), or a folder with a robot.toml [default: that of
@@ -34,6 +33,10 @@ pub(crate) struct FeasibleArgs {
     /// Scene: a built-in name, or a JSON file [default: that of motet.toml]
     #[arg(long, value_name = "NAME|FILE")]
     scene: Option<String>,
+    /// Facts at the start: what the hand holds, and which containers are open; a JSON object such as
+    /// '{"holding(mug_1)": true}', or a file with one
+    #[arg(long, value_name = "FACTS|FILE")]
+    state: Option<PathBuf>,
     /// Motion to decide; repeatable
     #[arg(long = "for", value_name = "MOTION", required_unless_present = "all")]
     motions: Vec<String>,
@@ -71,6 +74,7 @@ fn answer(args: &FeasibleArgs, report: &mut Report) -> Result<Exit, CliError> {
     let question = FeasibilityQuestion {
         robot,
         scene,
+        state: args.state.as_deref(),
         motions: if args.all { Motions::All } else { Motions::These(&args.motions) },
         effort: args.effort.unwrap_or(effort),
         clearance: args.clearance.given().or(clearance),

@@ -21,6 +21,22 @@ fn answers() {
             0,
             &["out:reach(mug_1): feasible, base at"],
         ),
+        (
+            "feasible --robot hsr --scene kitchen --for put(mug_1,kitchen_table) --state \
+             {\"holding(mug_1)\":true}",
+            0,
+            &["out:put(mug_1, kitchen_table): feasible, base at"],
+        ),
+        (
+            "robots mjcf --robot hsr --scene kitchen --state {\"on(mug_1,sink)\":true}",
+            2,
+            &["err:the state says `on(mug_1,sink)`, but the scene gives no pose for it"],
+        ),
+        (
+            "robots mjcf --robot hsr --scene kitchen --state {\"holding(mug1)\":true}",
+            2,
+            &["out:`mug1`", "out:did you mean `mug_1`"],
+        ),
         ("feasible --robot hsr --scene kitchen --for reach(plate)", 1, &["out:no_free_pose", "out:(proven)"]),
         (
             "feasible --robot hsr --scene kitchen --for push(drawer_1)",

@@ -243,7 +243,7 @@ fn what_a_driver_says_neither_steers_the_terminal_nor_fills_it() {
     let ends = |kind: &str| {
         format!(
             "{start}        say({{'method': 'feedback', 'params': {{'goal': m['params']['goal'], 'text': \
-                'a\\x1b[2Jb'}}}})\n        \
+                'a\\x1b[2Jb', 'own_motion': True}}}})\n        \
              say({{'method': 'ended', 'params': {{'goal': m['params']['goal'], 'outcome': {{'failure': \
                  {kind}}}}}}})\n"
         )
@@ -265,7 +265,7 @@ fn what_a_driver_says_neither_steers_the_terminal_nor_fills_it() {
         let driver = place.path(name);
         std::fs::write(&driver, odd(&ends(kind))).unwrap();
         let ran = place.run_args(&driven("away.motet", &format!("python3 '{}'", driver.display())));
-        ran.check(3, texts).check(3, &["err:a\\u{1b}[2Jb"]);
+        ran.check(3, texts).check(3, &["err:a motion of its own: a\\u{1b}[2Jb"]);
         let shown = format!("{}{}", ran.stdout, ran.stderr);
         assert!(!shown.contains('\u{1b}') && shown.len() < 10_000, "{ran:#?}");
         assert!(!ran.stdout.contains("simulated"), "{ran:#?}");

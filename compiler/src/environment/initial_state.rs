@@ -2,9 +2,11 @@
 //! no more things than it has hands, and a hand with a thing is not free.
 
 use indexmap::{IndexMap, IndexSet};
+use motet_robots::scene::Scene;
 use motet_stdlib::lang;
 use motet_syntax::ast::MAX_MISTAKES;
 use motet_syntax::{Diagnostic, Span, Syntax};
+use smol_str::{SmolStr, format_smolstr};
 
 use super::Environment;
 use super::diagnostics::{Contradiction, NotAFact};
@@ -20,6 +22,35 @@ pub struct InitialState {
 }
 
 impl InitialState {
+    /// Puts what the hand holds and which containers are open into a scene.
+    ///
+    /// # Errors
+    ///
+    /// The fact that only a pose could express.
+    pub fn put_into(&self, scene: &mut Scene) -> Result<(), SmolStr> {
+        for (fact, (holds, _)) in &self.facts {
+            let Some((fluent, args)) = fact.split_once('(') else { continue };
+            let arg = args.trim_end_matches(')').trim().trim_matches('`');
+            match fluent.trim() {
+                lang::fluents::OPEN => {
+                    if let Some(entity) = scene.entities.get_mut(arg) {
+                        entity.open = *holds;
+                    }
+                }
+                lang::fluents::HOLDING if *holds == Some(true) => {
+                    scene.robot.holding = Some(Some(arg.into()));
+                }
+                lang::fluents::AT | lang::fluents::ON | lang::fluents::IN | lang::fluents::HOLDING => {
+                    return Err(format_smolstr!(
+                        "the state says `{fact}`, but the scene gives no pose for it"
+                    ));
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
     /// Records every fact of the state in an environment, where it overrides the scene.
     pub(super) fn apply(&self, library: &Library, environment: &mut Environment) -> Vec<Diagnostic> {
         let mut diagnostics = Vec::new();

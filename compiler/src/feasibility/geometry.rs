@@ -331,21 +331,8 @@ fn begin(
     scene: &mut Scene,
     state: Option<&InitialState>,
 ) -> Result<Arc<Fingerprinted>, SmolStr> {
-    for (fact, (holds, _)) in state.into_iter().flat_map(|state| &state.facts) {
-        let Some((fluent, args)) = fact.split_once('(') else { continue };
-        let arg = args.trim_end_matches(')').trim().trim_matches('`');
-        match fluent.trim() {
-            lang::fluents::OPEN => {
-                if let Some(entity) = scene.entities.get_mut(arg) {
-                    entity.open = *holds;
-                }
-            }
-            lang::fluents::HOLDING if *holds == Some(true) => scene.robot.holding = Some(Some(arg.into())),
-            lang::fluents::AT | lang::fluents::ON | lang::fluents::IN | lang::fluents::HOLDING => {
-                return Err(format_smolstr!("the state says `{fact}`, but the scene gives no pose for it"));
-            }
-            _ => {}
-        }
+    if let Some(state) = state {
+        state.put_into(scene)?;
     }
     let is_door = |entity: &&Entity| entity.travel.is_some() && entity.open.is_none();
     if let Some(door) = scene.entities.values().find(is_door) {

@@ -18,7 +18,8 @@ pub(super) enum MotionArg {
     Pose(MapPose),
 }
 
-/// Motion query of a kind and arguments, of which the pose of a grasp may be missing; one that is not computed where they do not fit the kind.
+/// Motion query of a kind and arguments, of which the pose of a grasp may be missing; one that is not
+/// computed where they do not fit the kind.
 pub(super) fn motion_query(kind: MotionKind, args: &[MotionArg], side: Option<GraspSide>) -> MotionQuery {
     use MotionArg::{Name, Pose};
     match (kind, args) {

@@ -5,12 +5,13 @@ mod drawing;
 mod motions;
 
 use std::ops::ControlFlow;
+use std::path::Path;
 
 use motet_compiler::Session;
 use motet_geometry::planning::{
     MotionAnswer, MotionQuery, QueryContext, RobotModel, SceneState, SearchBudget,
 };
-use motet_project::{DiagnosticSink, open_robot, read_scene, require};
+use motet_project::{DiagnosticSink, open_robot, read_scene, read_state_into, require};
 use motet_robots::clearance::ClearanceOverride;
 use motet_robots::scene::{self, Scene};
 use motet_syntax::{Diagnostic, Sources};
@@ -33,6 +34,8 @@ pub struct FeasibilityQuestion<'a> {
     pub robot: &'a str,
     /// Name, file or JSON of a scene, as in [`motet_project::ProjectBuilder::scene`].
     pub scene: &'a str,
+    /// File or JSON of facts at the start, beside those of the scene.
+    pub state: Option<&'a Path>,
     pub motions: Motions<'a>,
     /// Factor of the default search budget.
     pub effort: u16,
@@ -62,6 +65,7 @@ pub struct MotionVerdict {
 /// let question = FeasibilityQuestion {
 ///     robot: "hsr",
 ///     scene: "kitchen",
+///     state: None,
 ///     motions: Motions::These(&["reach(mug_1)".to_owned()]),
 ///     effort: 1,
 ///     clearance: Default::default(),
@@ -87,8 +91,10 @@ pub fn decide<S: DiagnosticSink>(
     let mut scene = read_scene(question.scene, &mut sources, sink)?;
     scene.clearance = question.clearance.or(scene.clearance);
     require("scene", &scene::fit(&scene, &urdf), &sources, sink)?;
+    let state =
+        question.state.map(|path| read_state_into(&mut scene, path, &mut sources, sink)).transpose()?;
     let machine = RobotModel::new(&robot, &urdf);
-    let session = Session::builder().robot(&robot).scene(&scene).build(&mut sources);
+    let session = Session::builder().robot(&robot).scene(&scene).state(state.as_ref()).build(&mut sources);
     let queries = queries(question.motions, (&machine, &scene), &session, &mut sources, sink)?;
     let diagnostics = session.input_diagnostics().to_vec();
     require("robot or scene", &diagnostics, &sources, sink)?;

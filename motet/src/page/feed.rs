@@ -9,8 +9,8 @@ use std::sync::Arc;
 use motet_graph::{NodeId, Value as MotetValue};
 use motet_runtime::journal::{EngineReplay, JournalEntry, StepEntry};
 use motet_runtime::{
-    Command, DriverEvent, Effect, EndCause, Event, GoalId, NodeEnding, Outcome, RunEnd, Snapshot, Time,
-    TraceEvent, TraceEventKind, Verification,
+    Command, DriverEvent, Effect, EndCause, Event, GoalId, NodeEnding, OWN_MOTION, Outcome, RunEnd, Snapshot,
+    Time, TraceEvent, TraceEventKind, Verification,
 };
 use motet_stdlib::lang::{failures, primitives};
 use serde_json::{Map, Value, json};
@@ -175,8 +175,9 @@ impl PageFeed {
                 self.goals.remove(goal);
                 changes.push(ended(goal, "failed", Some(format!("refused: {failure}"))));
             }
-            DriverEvent::Feedback { goal, text } => {
-                changes.push(json!({"k": "feedback", "g": goal.to_string(), "text": escape(text)}));
+            DriverEvent::Feedback { goal, text, own_motion } => {
+                let text = format!("{}{}", if *own_motion { OWN_MOTION } else { "" }, escape(text));
+                changes.push(json!({"k": "feedback", "g": goal.to_string(), "text": text}));
             }
             DriverEvent::Stopped { goal } => changes.push(ended(goal, "interrupted", None)),
             DriverEvent::Lost { goal } => {

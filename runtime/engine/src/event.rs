@@ -48,7 +48,13 @@ pub enum DriverEvent {
     /// The driver cannot hold this goal: the engine cancels it and starts it again later.
     NotHeld { goal: GoalId },
     /// Progress of the goal in words for people; without effect on the run.
-    Feedback { goal: GoalId, text: SmolStr },
+    Feedback {
+        goal: GoalId,
+        text: SmolStr,
+        /// Set where the driver planned a motion itself and does not follow the witness of the command.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        own_motion: bool,
+    },
     /// Everything that the goal used stands still and is safe: the answer to a safe stop. The goal has ended.
     Stopped { goal: GoalId },
     /// The driver does not know what became of the goal: a start or a cancel was never answered, or what
@@ -82,6 +88,9 @@ impl DriverEvent {
     }
 }
 
+/// Words before the feedback of a driver that does not follow the witness.
+pub const OWN_MOTION: &str = "a motion of its own: ";
+
 /// Outcome of a goal.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
@@ -101,7 +110,9 @@ impl fmt::Display for DriverEvent {
             Self::Refused { goal, failure } => write!(f, "refused {goal}: {failure}"),
             Self::Ended { goal, outcome } => write!(f, "ended {goal}: {outcome}"),
             Self::NotHeld { goal } => write!(f, "not held {goal}"),
-            Self::Feedback { goal, text } => write!(f, "feedback of {goal}: {text}"),
+            Self::Feedback { goal, text, own_motion } => {
+                write!(f, "feedback of {goal}: {}{text}", if *own_motion { OWN_MOTION } else { "" })
+            }
             Self::Stopped { goal } => write!(f, "stopped {goal}"),
             Self::Lost { goal } => write!(f, "lost {goal}"),
             Self::DriverLost => f.write_str("driver lost"),

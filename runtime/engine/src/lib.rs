@@ -30,7 +30,7 @@ pub use cleanup::PendingCleanup;
 pub use driver::{Capabilities, Driver, DriverClock, MissingPrimitive, PrimitiveSet};
 pub use effect::{Command, DeferredMotion, Effect, Fault, MotionVerdict, PlannedMotion, RunEnd};
 pub use engine::Engine;
-pub use event::{DriverEvent, Event, FailureReport, Outcome, Verification};
+pub use event::{DriverEvent, Event, FailureReport, OWN_MOTION, Outcome, Verification};
 pub use ids::{CheckId, GoalId};
 pub use perception::{CameraImage, CameraModel, DepthImage, Detection, Perception, RgbdView};
 pub use query::{Answer, Pattern, Query, Reading, Truth};

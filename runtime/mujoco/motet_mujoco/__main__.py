@@ -43,9 +43,9 @@ def main(arguments=None):
                         help="a person says something by themselves, at a time")
     parser.add_argument("--speed", type=float, default=1.0, help="for hosts with a wall clock: times real time")
     parser.add_argument("--oracle", nargs="?", const="robot", choices=("robot", "judge"),
-                        help="perceive by the truth of the simulator, not by pixels; with `judge`, tell it to judges alone")
+                        help="perceive by the truth of the simulator; with `judge`, tell it to judges alone")
     parser.add_argument("--detector", metavar="CMD", type=shlex.split,
-                        help="the command of a detector that reads and answers lines [default: one by colours and shapes]")
+                        help="the command of a detector [default: one by colours and shapes]")
     args = parser.parse_args(arguments)
     try:
         command = find_motet(args.motet)

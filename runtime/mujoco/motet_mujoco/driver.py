@@ -74,7 +74,8 @@ class Goal:
 class Driver:
     """Keeps goals, answers calls, and lets the world go on."""
 
-    def __init__(self, model, command, options, oracle=False, walks=(), says=(), told=None, detector=None, judged=None):
+    def __init__(self, model, command, options, oracle=False, walks=(), says=(), told=None, detector=None,
+                 judged=None):
         self.detector, self.judged = detector, oracle if judged is None else judged
         self.model, self.command, self.options, self.room = model, command, options, told
         self.oracle, self.walks, self.says = oracle, list(walks), list(says)

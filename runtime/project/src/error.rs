@@ -53,6 +53,9 @@ pub enum ProjectError {
     /// A card as JSON is no JSON object, or has values that TOML does not have.
     #[error("the card of the robot cannot be used: {0}")]
     Card(String),
+    /// A state has a fact that the scene cannot show.
+    #[error("{0}")]
+    State(String),
     /// A journal does not describe its driver, or was written by another host.
     #[error("{0}")]
     Journal(String),
@@ -68,6 +71,7 @@ impl ProjectError {
                 Some("a robot's folder holds robot.toml, and primitives.motet if its signatures differ")
             }
             Self::Outside { .. } => Some("copy it there, or add its folder to `packages` of the card"),
+            Self::State(_) => Some("say in the scene where things are, by their poses"),
             Self::TooLarge { .. } => Some("split it into several files"),
             Self::Config { .. } => Some(
                 "its keys are robot, scene, state, domains, clearance, max_duration, geometry and effort",

@@ -545,6 +545,22 @@ fn read_domain(
     Ok(parsed.file)
 }
 
+/// Reads a state and puts it into a scene: what the hand holds, and which containers are open.
+///
+/// # Errors
+///
+/// The file cannot be read or has errors, or a fact needs a pose that the scene does not give.
+pub fn read_state_into(
+    scene: &mut Scene,
+    path: &Path,
+    sources: &mut Sources,
+    sink: &mut dyn DiagnosticSink,
+) -> Result<InitialState, ProjectError> {
+    let state = read_state(path, sources, sink)?;
+    state.put_into(scene).map_err(|why| ProjectError::State(why.into()))?;
+    Ok(state)
+}
+
 /// Reads a state.
 fn read_state(
     path: &Path,

@@ -211,9 +211,11 @@ impl Driver {
                 Surroundings { robot: &mut self.robot, world: &mut self.world, card: &self.card };
             let finish = task.advance(&mut around);
             let id = GoalId::from_number(*number);
-            for text in task.feedback.drain(..) {
-                reports.push(DriverReport::Feedback(FeedbackParams { goal: id, text }));
-            }
+            let own = task.own_motions.drain(..).map(|text| (text, true));
+            let said = task.feedback.drain(..).map(|text| (text, false)).chain(own);
+            reports.extend(said.map(|(text, own_motion)| {
+                DriverReport::Feedback(FeedbackParams { goal: id, text, own_motion })
+            }));
             let Some(finish) = finish else { continue };
             let (primitive, args) = (task.command.primitive.to_string(), task.args());
             match finish {

@@ -157,6 +157,8 @@ pub(crate) struct Task {
     settling: Option<Instant>,
     /// Texts for people.
     pub(crate) feedback: Vec<String>,
+    /// Feedback about motions that do not follow the path of the command.
+    pub(crate) own_motions: Vec<String>,
 }
 
 impl Task {
@@ -186,6 +188,7 @@ impl Task {
             stopping: None,
             settling: None,
             feedback: Vec::new(),
+            own_motions: Vec::new(),
         }
     }
 

@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use motet_compiler::Session;
 use motet_geometry::mjcf;
 use motet_geometry::planning::RobotModel;
-use motet_project::{open_robot, read_scene, require};
+use motet_project::{open_robot, read_scene, read_state_into, require};
 use motet_robots::scene;
 use motet_syntax::Sources;
 
@@ -26,6 +27,10 @@ pub(crate) struct MjcfArgs {
     /// Scene: a built-in name, or a JSON file
     #[arg(long, value_name = "NAME|FILE")]
     scene: String,
+    /// Facts at the start: what the hand holds, and which containers are open; a JSON object, or a file
+    /// with one
+    #[arg(long, value_name = "FACTS|FILE")]
+    state: Option<PathBuf>,
     /// File for the model [default: standard output]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -38,8 +43,13 @@ pub(crate) fn run(args: &MjcfArgs, report: &mut Report) -> Result<Exit, CliError
     let Some(urdf) = urdf else {
         return Err(CliError::Message(format!("the card of `{}` names no URDF under [model]", robot.name)));
     };
-    let room = read_scene(&args.scene, &mut sources, report)?;
+    let mut room = read_scene(&args.scene, &mut sources, report)?;
     require("scene", &scene::fit(&room, &urdf), &sources, report)?;
+    if let Some(state) = &args.state {
+        let state = read_state_into(&mut room, state, &mut sources, report)?;
+        let session = Session::builder().robot(&robot).scene(&room).state(&state).build(&mut sources);
+        require("state", session.input_diagnostics(), &sources, report)?;
+    }
     let model = mjcf::write(&RobotModel::new(&robot, &urdf), &urdf, &room)
         .map_err(|error| CliError::Message(error.to_string()))?;
     match &args.output {

@@ -79,7 +79,9 @@ fn driver_event() -> impl Strategy<Value = DriverEvent> {
         (goal(), failure()).prop_map(|(goal, failure)| DriverEvent::Refused { goal, failure }),
         (goal(), outcome).prop_map(|(goal, outcome)| DriverEvent::Ended { goal, outcome }),
         goal().prop_map(|goal| DriverEvent::NotHeld { goal }),
-        (goal(), ".{0,8}").prop_map(|(goal, text)| DriverEvent::Feedback { goal, text: text.into() }),
+        (goal(), ".{0,8}", any::<bool>()).prop_map(|(goal, text, own_motion)| {
+            DriverEvent::Feedback { goal, text: text.into(), own_motion }
+        }),
         goal().prop_map(|goal| DriverEvent::Stopped { goal }),
         goal().prop_map(|goal| DriverEvent::Lost { goal }),
         Just(DriverEvent::DriverLost),
@@ -247,7 +249,8 @@ fn wire_form_keeps_its_bytes() {
         driver(DriverEvent::Ended { goal, outcome: Outcome::Failure(told) }),
         driver(DriverEvent::Ended { goal, outcome: Outcome::Interrupted }),
         driver(DriverEvent::NotHeld { goal }),
-        driver(DriverEvent::Feedback { goal, text: "half way".into() }),
+        driver(DriverEvent::Feedback { goal, text: "half way".into(), own_motion: false }),
+        driver(DriverEvent::Feedback { goal, text: "around a box".into(), own_motion: true }),
         driver(DriverEvent::Stopped { goal }),
         driver(DriverEvent::Lost { goal }),
         driver(DriverEvent::DriverLost),

@@ -276,6 +276,9 @@ pub struct ObservedParams {
 pub struct FeedbackParams {
     pub goal: GoalId,
     pub text: String,
+    /// Set where the driver planned a motion itself and does not follow the witness of the command.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub own_motion: bool,
 }
 
 /// Empty parameters or an empty result.

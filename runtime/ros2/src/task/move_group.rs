@@ -46,7 +46,7 @@ impl Task {
         match goals {
             Ok(goals) => {
                 let text = format!("{}; MoveGroup plans a way that nobody has certified", why.says);
-                self.feedback.push(text);
+                self.own_motions.push(text);
                 self.before = Some(controlled(around.robot));
                 self.move_group(around.robot, &bound, goals);
             }

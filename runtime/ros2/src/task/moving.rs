@@ -47,7 +47,7 @@ impl Task {
                     self.take_path(around, &witness.clone());
                     return true;
                 }
-                Err(away) => self.feedback.push(format!("{away}; a new path is looked for")),
+                Err(away) => self.own_motions.push(format!("{away}; a new path is looked for")),
             }
         }
         if let Err(why) = self.plan(around, plan::motion(&motion)) {
@@ -69,7 +69,7 @@ impl Task {
         };
         self.detours += 1;
         self.moves.clear();
-        self.feedback.push(format!("{away}; a new path is looked for"));
+        self.own_motions.push(format!("{away}; a new path is looked for"));
         if let Err(why) = self.plan(around, motion) {
             self.fail(around, why);
         }

@@ -93,8 +93,8 @@ pub(crate) fn hold_depths(hand: &HandModel, width: f64, contact: FingerContact) 
 const STEPS: usize = 20;
 const PUSHED: f64 = 0.002;
 
-/// Orders candidates: those that move the object less, and from the robot's side first, and from above, which is rarely blocked, in the middle.
-/// `ahead` leads from the base to the object.
+/// Orders candidates: those that move the object less, and from the robot's side, first, and from above,
+/// which is rarely blocked, in the middle. `ahead` leads from the base to the object.
 pub(crate) fn in_order(holds: &mut [GraspCandidate], ahead: &Vector3<f64>) {
     let pushed = |hold: &GraspCandidate| libm::round(hold.push.norm() / PUSHED) as usize;
     holds.sort_by_cached_key(|hold| pushed(hold) + rank(hold, ahead));

@@ -1,5 +1,4 @@
-//! `reach` and `reach_at`: a grasp of an object, at a point of it in the latter, and a path of the whole robot
-//! to it.
+//! `reach` and `reach_at`: a grasp of an object, in the latter at a point, and a path of the robot to it.
 
 use motet_robots::scene::Entity;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
@@ -50,8 +49,8 @@ pub(crate) fn reach(
     search(context, &target, all, Some(&manifold), budget)
 }
 
-/// Answers `reach_at`: a grasp of an entity at a point, on whose turn nothing depends. Without the point, only
-/// what it does not change.
+/// Answers `reach_at`: a grasp of an entity at a point; the yaw of the pose does not matter. Without the
+/// pose, only what it does not change.
 pub(crate) fn reach_at(
     context: &QueryContext<'_>,
     id: &str,

@@ -353,9 +353,15 @@ fn at_point(scene: &Scene, off: [f64; 3]) -> (MotionAnswer, Vector3<f64>) {
         let (grasp, hand) = (witness.grasp.as_ref().unwrap(), model.hand().unwrap());
         let closes = Vector3::from(hand.card.closes);
         let local = grasp.map_from_tip.inverse() * nalgebra::Point3::from(point);
-        assert!(local.coords.dot(&closes).abs() < 1e-6, "{off:?}: the fingers close beside the point, {local}");
+        assert!(
+            local.coords.dot(&closes).abs() < 1e-6,
+            "{off:?}: the fingers close beside the point, {local}"
+        );
         let held = grasp.tip_from_object.translation.vector;
-        assert!(held.dot(&closes).abs() < 1e-6, "{off:?}: closed fingers have the object in the middle, {held}");
+        assert!(
+            held.dot(&closes).abs() < 1e-6,
+            "{off:?}: closed fingers have the object in the middle, {held}"
+        );
     }
     (answer, point)
 }

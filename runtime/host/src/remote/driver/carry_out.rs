@@ -5,8 +5,8 @@ use super::run_time::RunTime;
 use super::{RemoteDriver, failed};
 use motet_graph::Graph;
 use motet_runtime::{
-    Answer, Capabilities, Command, Detection, Driver, DriverEvent, GoalId, Heard, Moved, Query, RgbdView,
-    Time, ToldThing,
+    Answer, CameraImage, Capabilities, Command, Detection, Driver, DriverEvent, GoalId, Heard, Moved,
+    Perception, Query, RgbdView, Time, ToldThing,
 };
 use std::thread;
 use std::time::Duration;
@@ -150,5 +150,16 @@ impl Driver for RemoteDriver {
         if self.welcome.capabilities.told {
             self.call(DriverCall::Told(ToldParams { thing: thing.clone() }));
         }
+    }
+}
+
+/// Pictures of the camera as it is turned.
+impl Perception for RemoteDriver {
+    fn image(&mut self, now: Time) -> Option<CameraImage> {
+        Some(self.look(now, None)?.image)
+    }
+
+    fn view(&mut self, now: Time, _of: &str) -> Option<RgbdView> {
+        self.look(now, None)
     }
 }

@@ -2,11 +2,12 @@
 
 use super::super::link::LinkError;
 use super::super::protocol::{
-    DriverCall, DriverMessage, DriverReport, EmptyParams, GoalParams, MAX_FEEDBACK, MAX_KIND_BYTES,
-    MAX_WAITING, QueryParams, QueryResult, REFUSED, RefusedData, RpcError, SAYINGS, hear, heard,
+    DriverCall, DriverMessage, DriverReport, EmptyParams, FeedbackParams, GoalParams, MAX_FEEDBACK,
+    MAX_KIND_BYTES, MAX_WAITING, QueryParams, QueryResult, REFUSED, RefusedData, RpcError, SAYINGS, hear,
+    heard,
 };
 use super::{LineFrom, RemoteDriver, Waiting, failed, nonsense};
-use motet_runtime::{Answer, DriverEvent, FailureReport, GoalId, Outcome};
+use motet_runtime::{Answer, DriverEvent, FailureReport, GoalId, OWN_MOTION, Outcome};
 use serde_json::Value;
 use smol_str::SmolStr;
 use std::sync::atomic::Ordering;
@@ -105,8 +106,10 @@ impl RemoteDriver {
             DriverReport::Feedback(feedback) if !self.runs(feedback.goal, "has feedback") => {}
             DriverReport::Feedback(feedback) => {
                 let text: SmolStr = feedback.text.chars().take(MAX_FEEDBACK).collect();
-                self.log.note(&format!("goal {}: {text}", feedback.goal));
-                self.report(DriverEvent::Feedback { goal: feedback.goal, text });
+                let FeedbackParams { goal, own_motion, .. } = feedback;
+                let own = if own_motion { OWN_MOTION } else { "" };
+                self.log.note(&format!("goal {goal}: {own}{text}"));
+                self.report(DriverEvent::Feedback { goal, text, own_motion });
             }
             DriverReport::Moved(moved) => {
                 let moved = moved.moved(self.time.now(), self.time.is_own());
