@@ -109,7 +109,8 @@ fn summary(
             let at = place.map_or_else(String::new, |node| {
                 format!(" in `{}` ({})", escape(&Names(graph).brief(&node.kind)), node.path)
             });
-            (StepStatus::Failed, format!("failed with `{}`{at}", escape(kind)), why.clone())
+            let why = why.clone().or_else(|| tree.reason(*node).map(str::to_owned));
+            (StepStatus::Failed, format!("failed with `{}`{at}", escape(kind)), why)
         }
         RunEnd::Declined { why } => (StepStatus::Interrupted, "declined".to_owned(), why.clone()),
         RunEnd::Replan { why } => (StepStatus::Failed, "asks for a new plan".to_owned(), why.clone()),

@@ -281,8 +281,7 @@ mod tests {
         let kept = KeptResults { path: Box::leak(path.clone().into_boxed_path()), words: "dynamic 3" };
         let workers = Workers { jobs: 2, kept: Some(kept), ..Workers::default() };
         let items = || (0..10).collect::<Vec<u32>>();
-        let fails =
-            |item: u32| if item < 6 { Ok(item * item) } else { Err(format!("no power for {item}")) };
+        let fails = |item: u32| if item < 6 { Ok(item * item) } else { Err(format!("no power for {item}")) };
         assert_eq!(workers.spread_kept(items(), fails), Err("no power for 6".to_owned()));
         // A line that was being written when the call was stopped.
         std::fs::OpenOptions::new().append(true).open(&path).unwrap().write_all(b"3").unwrap();

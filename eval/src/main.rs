@@ -40,8 +40,8 @@ use motet_eval::bench::{Bench, DriverKind};
 use motet_eval::planners::PlannerKind;
 use motet_eval::saycan::planned;
 use motet_eval::{
-    Judged, KeptResults, Workers, dialogue, dynamic, mutations, physics, planbench, repairs, saycan, scenarios, soundness,
-    summary, tasks, world,
+    Judged, KeptResults, Workers, dialogue, dynamic, mutations, physics, planbench, repairs, saycan,
+    scenarios, soundness, summary, tasks, world,
 };
 
 /// Suite over the lines of a file.

@@ -363,6 +363,11 @@ class Driver:
             if _is_own_name(primitive) and performer == self.perform and type(self).perform is Driver.perform:
                 unfit.append(f'`{primitive}` is a method of the protocol: mark a coroutine with `@motet.performs("{primitive}")`')
                 continue
+            if performer == self.perform and type(self).perform is Driver.perform:
+                is_plain = callable(getattr(self, python_name(primitive), None))
+                hint = f": its `{python_name(primitive)}` is not an `async def`" if is_plain else ""
+                unfit.append(f"the driver does not have `{primitive}`{hint}")
+                continue
             try:
                 inspect.signature(performer).bind(None, **dict.fromkeys(names))
             except TypeError as wrong:

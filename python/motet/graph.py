@@ -45,8 +45,9 @@ class Graph:
 
     @property
     def asks(self) -> frozenset[str]:
-        """The facts and measures of which the run asks the robot: those of conditions and monitors, and of the needs that the
-        check has left to the run.
+        """The facts and measures of which the run asks the robot: those of conditions, monitors and the goal, and of the needs
+        that the check has left to the run. After a failure the run may ask for more: it no longer takes for true what the step
+        that failed changes.
 
         >>> import motet
         >>> graph = motet.compile("policy get for hsr { go(mug_1) pick(mug_1) done }", scene="kitchen")
@@ -55,7 +56,7 @@ class Graph:
         """
         graph = self.to_dict()
         found: set[str] = set()
-        _asked(graph["nodes"], graph, found)
+        _asked([graph["nodes"], graph["goal"]], graph, found)
         return frozenset(found)
 
     def to_json(self) -> str:
@@ -109,7 +110,7 @@ def _asked(part: Any, graph: dict[str, Any], found: set[str]) -> None:
     for key, value in part.items():
         if key == "fact" and isinstance(value, dict) and graph["fluents"][value["fluent"]]["observable"]:
             found.add(graph["fluents"][value["fluent"]]["name"])
-        if key == "measure" and isinstance(value, dict):
-            found.add(graph["measures"][value["measure"]]["name"])
+        if key == "measure":
+            found.add(graph["measures"][value[0]]["name"])
         if key not in _DEEDS:
             _asked(value, graph, found)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 import threading
 import warnings
 from collections import OrderedDict
@@ -177,13 +178,15 @@ class Project:
         Raises `motet.PolicyError` if the check refuses the policy, and `motet.InputError`, before anything moves, if the driver
         has no coroutine for a primitive of the policy, or one that does not take its parameters.
         """
+        if not isinstance(driver, Driver):
+            raise TypeError(f"a driver is an instance of a subclass of `motet.Driver`, not {driver!r}")
         graph = self.compile(policy, choose=choose, name=name)
         unfit = driver._unfit(graph.calls)
         if unfit:
-            raise InputError("the driver cannot carry the policy out: " + "; ".join(unfit))
+            raise InputError("; ".join(unfit))
         for fact in sorted(driver._unobserved(graph.asks)):
             text = f"the policy asks for `{fact}`, and the driver has no method of that name: it is unknown"
-            warnings.warn(text, stacklevel=2)
+            warnings.warn(text, stacklevel=_caller())
         stream = ServedStream(driver)
         try:
             run = graph._native.drive(
@@ -194,6 +197,14 @@ class Project:
         finally:
             stream.join()
         return Run(run, graph, graph.report)
+
+
+def _caller() -> int:
+    """The level of the stack, from the function that calls this one, at which the code outside of this package stands."""
+    level, frame = 1, sys._getframe(1)
+    while frame.f_back is not None and frame.f_globals.get("__package__") == __package__:
+        level, frame = level + 1, frame.f_back
+    return level
 
 
 def _nobody(text: str) -> None:

@@ -205,6 +205,10 @@ class Session:
         """A failure that the primitive declares: another one becomes its first, and goes on in the text."""
         if not goal.fails or failed.kind in (*goal.fails, "timeout"):
             return failed._wire()
+        kinds = ", ".join(f"`{kind}`" for kind in goal.fails)
+        told = f"`{goal.primitive}` does not declare `{failed.kind}`, but {kinds}: it counts as `{goal.fails[0]}`"
+        print(f"motet: {told}", file=sys.stderr)
+        self.report("feedback", {"goal": goal.number, "text": told[:LONGEST]})
         return {"kind": goal.fails[0], "text": str(failed)[:LONGEST]}
 
     async def stop(self, number: int) -> None:

@@ -129,7 +129,10 @@ class Report(Sequence[Diagnostic]):
     def raise_if_errors(self) -> Report:
         """Returns the report itself. Raises `motet.PolicyError` with all diagnostics if there are errors."""
         if errors := self.errors:
-            raise PolicyError(f"the policy is refused: {errors[0].message}", self.diagnostics)
+            first, more = errors[0], f" (and {len(errors) - 1} more)" if len(errors) > 1 else ""
+            advice = f"; {first.help}" if first.help else ""
+            place = f"{first.file}:{first.span.line}:{first.span.column}"
+            raise PolicyError(f"the policy is refused: {first.message}{advice}, at {place}{more}", self.diagnostics)
         return self
 
     def to_json(self) -> str:

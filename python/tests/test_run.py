@@ -105,7 +105,7 @@ def test_drive_tells_failures_of_the_driver():
             raise motet.Failed("timeout", "no voice")
 
     run = motet.drive(GREET, Mute())
-    assert (run.outcome, run.failure) == ("failed", "timeout")
+    assert (run.outcome, run.failure, run.why) == ("failed", "timeout", "no voice")
 
     class Endless(Robot):
         async def say(self, goal, text):
@@ -136,6 +136,15 @@ def test_drive_refuses_a_driver_that_lacks_a_primitive_before_anything_moves():
     with pytest.raises(motet.InputError, match="its `say` does not take `goal, text`"):
         motet.drive(GREET, Deaf())
 
+    class Plain(motet.Driver):
+        def say(self, goal, text):
+            raise AssertionError("nothing moves")
+
+    with pytest.raises(motet.InputError, match="the driver does not have `say`: its `say` is not an `async def`"):
+        motet.drive(GREET, Plain())
+    with pytest.raises(TypeError, match="an instance of a subclass"):
+        motet.drive(GREET, Plain)
+
     class Anything(motet.Driver):
         async def perform(self, goal, **args):
             return None
@@ -150,8 +159,10 @@ def test_drive_warns_of_facts_that_the_driver_does_not_observe():
         async def perform(self, goal, **args):
             await goal.sleep(1.0)
 
-    with pytest.warns(UserWarning, match="the policy asks for `visible`, and the driver has no method of that name"):
+    asks = "the policy asks for `visible`, and the driver has no method of that name"
+    with pytest.warns(UserWarning, match=asks) as warned:
         run = motet.drive("policy get for hsr { go(mug_1) pick(mug_1) done }", Blind(), scene="kitchen")
+    assert {warning.filename for warning in warned} == {__file__}
     assert (run.outcome, run.failure, run.why) == ("failed", "not_found", "needs visible(mug_1), which is unknown")
     [guard] = [event for event in run if event.event == "guard"]
     assert guard.more == {"need": 1, "needs": "visible(mug_1)", "truth": "unknown"}
@@ -193,3 +204,22 @@ def test_the_laws_of_drivers_are_checked():
 
     broken = motet.check_driver(Liar)
     assert not broken.ok and broken.broken[0].messages, str(broken)
+
+
+def test_a_failure_that_the_primitive_does_not_declare_is_told():
+    class Clumsy(motet.Driver):
+        owns_clock = True
+
+        async def go(self, goal, to):
+            raise motet.Failed("stumbled", "over a cable")
+
+    heard = []
+    run = motet.drive("policy p for hsr { go(shelf) done }", Clumsy(), scene="kitchen", say=heard.append)
+    assert run.outcome == "failed" and run.failure != "stumbled" and "stumbled: over a cable" in run.why
+    assert any("`go` does not declare `stumbled`, but" in text for text in heard), heard
+
+
+def test_what_a_policy_asks_has_its_measures_and_its_goal():
+    text = "policy p for hsr achieves on(mug_1, shelf) { if battery() < 20 % { cannot } go(mug_1) pick(mug_1) go(shelf) "
+    graph = motet.compile(text + "place(mug_1, shelf) done }", scene="kitchen")
+    assert {"battery", "on", "visible"} <= graph.asks

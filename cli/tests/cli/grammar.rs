@@ -115,13 +115,17 @@ fn probe_tells_a_server_that_obeys_from_one_that_does_not() {
         ("anthropic", r#"{"type": "message", "content": [{"type": "text", "text": TEXT}]}"#),
         ("gemini", r#"{"candidates": [{"content": {"parts": [{"text": TEXT}]}, "finishReason": "STOP"}]}"#),
     ] {
-        for (text, code, says) in [
-            (r#""{\"probe\": \"held\"}""#, 0, "enforces the grammar"),
-            (r#""free""#, 1, "answered `free`"),
-        ] {
+        for (text, code, says) in
+            [(r#""{\"probe\": \"held\"}""#, 0, "enforces the grammar"), (r#""free""#, 1, "answered `free`")]
+        {
             let (address, _) = scripted("200 OK", vec![of_text.replace("TEXT", text)]);
             let ran = place.run(&format!("grammar probe {address} --dialect {dialect}"));
-            assert!(ran.code == Some(code) && ran.stdout.contains(says), "{dialect}: {}{}", ran.stdout, ran.stderr);
+            assert!(
+                ran.code == Some(code) && ran.stdout.contains(says),
+                "{dialect}: {}{}",
+                ran.stdout,
+                ran.stderr
+            );
         }
     }
     let free = r#"{"message": {"role": "assistant", "content": "free"}}"#;

@@ -136,7 +136,8 @@ pub fn trials(bench: &Bench, wordings: &str, objects: Objects) -> Result<Vec<Tri
     cases.retain(|case| bench.asks_for(&[&case.robot, &case.scene, &case.request]));
     let seeded: Vec<_> = cases.into_iter().enumerate().step_by(bench.every.max(1)).collect();
     let shard = bench.workers.shard;
-    let own = seeded.iter().enumerate().filter(|(place, _)| shard.has(*place)).map(|(_, (_, case))| case.clone());
+    let own =
+        seeded.iter().enumerate().filter(|(place, _)| shard.has(*place)).map(|(_, (_, case))| case.clone());
     let own: Vec<_> = own.collect();
     let mut trials = bench.workers.spread_kept(seeded, |(index, case)| run(bench, case, index as u64))?;
     for (trial, case) in trials.iter_mut().zip(own) {

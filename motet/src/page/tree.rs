@@ -100,6 +100,12 @@ impl StepTree {
         self.place(node).and_then(|place| self.rows.get(place))
     }
 
+    /// Reason in words for which a step failed, or did not begin.
+    #[must_use]
+    pub fn reason(&self, node: NodeId) -> Option<&str> {
+        self.failures.reason(node)
+    }
+
     fn place(&self, node: NodeId) -> Option<usize> {
         self.row_of.get(node.index()).copied().flatten()
     }
@@ -107,6 +113,7 @@ impl StepTree {
     /// Updates the tree by a trace event. Returns the node of the event.
     pub fn take(&mut self, record: &TraceEvent) -> Option<NodeId> {
         let graph = Arc::clone(&self.graph);
+        self.failures.trace(&graph, record);
         let (node, note) = match &record.what {
             TraceEventKind::Entered { node } => {
                 self.enter(*node, record.at);

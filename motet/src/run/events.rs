@@ -6,8 +6,8 @@ use std::sync::Arc;
 use motet_graph::draw::Names;
 use motet_graph::{FailureId, Graph, NodeId, NodeKind, Value};
 use motet_runtime::{
-    Command, DriverEvent, Effect, EndCause, Event, GoalId, MissingPrimitive, NodeEnding, Outcome, RunEnd,
-    Time, TraceEvent, TraceEventKind, Truth,
+    Command, DriverEvent, Effect, EndCause, Event, FailureReport, GoalId, MissingPrimitive, NodeEnding,
+    Outcome, RunEnd, Time, TraceEvent, TraceEventKind, Truth,
 };
 use motet_syntax::{Diagnostic, Sources, render};
 use serde_json::{Map, json};
@@ -17,15 +17,13 @@ use serde_json::{Map, json};
 pub struct RunEvents {
     graph: Arc<Graph>,
     failures: FailureNames,
-    /// Step whose need was last found wanting, with the reason in words.
-    unmet: Option<(NodeId, String)>,
 }
 
 impl RunEvents {
     /// Writer for the run of a graph.
     #[must_use]
     pub fn new(graph: Arc<Graph>) -> Self {
-        Self { graph, failures: FailureNames::default(), unmet: None }
+        Self { graph, failures: FailureNames::default() }
     }
 
     fn line(&self, now: Time, event: &str, node: Option<NodeId>, more: serde_json::Value) -> String {
@@ -56,6 +54,7 @@ impl RunEvents {
     fn record(&mut self, record: &TraceEvent) -> String {
         let at = record.at;
         let graph = Arc::clone(&self.graph);
+        self.failures.trace(&graph, record);
         match &record.what {
             TraceEventKind::Entered { node } => self.line(at, "entered", Some(*node), json!({})),
             TraceEventKind::Ended { node, ending, cause } => {
@@ -75,8 +74,6 @@ impl RunEvents {
             }
             TraceEventKind::Guard { node, need, truth } => {
                 let needs = needed(&graph, *node, *need);
-                self.unmet =
-                    (*truth != Truth::True).then(|| (*node, format!("needs {needs}, which is {truth}")));
                 let more = json!({"need": need, "needs": needs, "truth": word(*truth)});
                 self.line(at, "guard", Some(*node), more)
             }
@@ -163,9 +160,8 @@ impl RunEvents {
             _ => None,
         };
         let mut more = outcome(end);
-        // A step that did not begin has no driver that could say why.
-        if let (RunEnd::Failed { node, why: None, .. }, Some((unmet, why))) = (end, &self.unmet)
-            && node == unmet
+        if let RunEnd::Failed { node, why: None, .. } = end
+            && let Some(why) = self.failures.reason(*node)
             && let Some(more) = more.as_object_mut()
         {
             more.insert("why".to_owned(), json!(why));
@@ -228,9 +224,7 @@ pub fn needed(graph: &Graph, node: NodeId, need: u32) -> String {
     let Some(NodeKind::Call(call)) = graph.nodes.get(node.index()).map(|node| &node.kind) else {
         return "?".to_owned();
     };
-    call.needs
-        .get(need as usize)
-        .map_or_else(|| "?".to_owned(), |need| Names(graph).condition(&need.condition))
+    call.needs.get(need as usize).map_or_else(|| "?".to_owned(), |need| Names(graph).needed(need))
 }
 
 /// Condition of a watch.
@@ -248,8 +242,10 @@ pub fn watched(graph: &Graph, node: NodeId, watch: u32) -> String {
 /// events of the driver.
 #[derive(Debug, Default)]
 pub struct FailureNames {
-    last: Option<String>,
+    last: Option<FailureReport>,
     known: BTreeMap<usize, String>,
+    /// Step that failed or did not begin last, with the reason in words.
+    reason: Option<(NodeId, String)>,
 }
 
 impl FailureNames {
@@ -259,9 +255,32 @@ impl FailureNames {
             Event::Driver(
                 DriverEvent::Ended { outcome: Outcome::Failure(failure), .. }
                 | DriverEvent::Refused { failure, .. },
-            ) => Some(failure.kind.to_string()),
+            ) => Some(failure.clone()),
             _ => None,
         };
+    }
+
+    /// Takes a trace event of a graph.
+    pub fn trace(&mut self, graph: &Graph, record: &TraceEvent) {
+        match &record.what {
+            // A step that did not begin has no driver that could say why.
+            TraceEventKind::Guard { node, need, truth } => {
+                let needs = || needed(graph, *node, *need);
+                self.reason =
+                    (*truth != Truth::True).then(|| (*node, format!("needs {}, which is {truth}", needs())));
+            }
+            TraceEventKind::GoalEnded { node, ending: NodeEnding::Failure(_), .. } => {
+                let text = self.last.as_ref().and_then(|failure| failure.text.as_ref());
+                self.reason = text.map(|text| (*node, text.to_string()));
+            }
+            _ => {}
+        }
+    }
+
+    /// Reason in words for which a step failed, or did not begin: the driver's, or the need that it lacked.
+    #[must_use]
+    pub fn reason(&self, node: NodeId) -> Option<&str> {
+        self.reason.as_ref().filter(|(step, _)| *step == node).map(|(_, why)| why.as_str())
     }
 
     /// Name of a failure kind: that of the graph, or the driver's when its number first appeared.
@@ -269,8 +288,8 @@ impl FailureNames {
         if kind.index() < graph.failures.len() {
             return Names(graph).failure(kind).to_owned();
         }
-        match self.last.clone() {
-            Some(last) => self.known.entry(kind.index()).or_insert(last).clone(),
+        match &self.last {
+            Some(last) => self.known.entry(kind.index()).or_insert_with(|| last.kind.to_string()).clone(),
             None => self.known.get(&kind.index()).map_or_else(|| "?".to_owned(), String::clone),
         }
     }

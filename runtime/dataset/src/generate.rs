@@ -350,7 +350,10 @@ pub fn gather(order: &Order, parts: Vec<(usize, SceneRows)>) -> Dataset {
         for row in part.rows {
             let input = format::read(&format::write(&row, order.form)).map(|read| lint::normal(&read.input));
             if !inputs.insert(input.unwrap_or_default()) {
-                *dataset.dropped.entry(SmolStr::new_static("the same input is there already")).or_default() += 1;
+                *dataset
+                    .dropped
+                    .entry(SmolStr::new_static("the same input is there already"))
+                    .or_default() += 1;
                 continue;
             }
             if let Some(scene) = part.scenes.get(&row.about.scene) {

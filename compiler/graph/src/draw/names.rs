@@ -158,8 +158,13 @@ impl<'a> Names<'a> {
     /// A need with its quantifier and its failure.
     #[must_use]
     pub fn need(&self, need: &Need) -> String {
-        let condition = self.quantified(self.condition(&need.condition), need.each, need.when.as_ref());
-        format!("{condition}, else {}", self.failure(need.failure))
+        format!("{}, else {}", self.needed(need), self.failure(need.failure))
+    }
+
+    /// A need with its quantifier.
+    #[must_use]
+    pub fn needed(&self, need: &Need) -> String {
+        self.quantified(self.condition(&need.condition), need.each, need.when.as_ref())
     }
 
     /// A motion query with its arguments.
