@@ -11,7 +11,7 @@ use ignore::WalkBuilder;
 use motet_project::ProjectError;
 use motet_project::files::{Bytes, read_bounded, read_file};
 use motet_syntax::ast::MAX_BYTES;
-use motet_syntax::{Parsed, Source};
+use motet_syntax::{Parsed, Source, Syntax};
 use serde::de::IgnoredAny;
 
 use crate::error::CliError;
@@ -193,6 +193,11 @@ impl Document {
     /// Parses the document. Bytes that are not text, or are too many, are diagnostics.
     pub(crate) fn parse(&self) -> (Source, Parsed) {
         self.parse_as(|source| motet_syntax::read(source, motet_project::DOCUMENT))
+    }
+
+    /// Is `true` if the document is in the JSON syntax.
+    pub(crate) fn is_json(&self) -> bool {
+        self.parse().1.syntax == Syntax::Json
     }
 
     /// Parses a document of another language.

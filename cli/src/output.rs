@@ -51,11 +51,19 @@ pub(crate) struct Output {
 }
 
 impl Output {
-    /// Writes a text and flushes it. What would steer a terminal is escaped, in a document of JSON as JSON
-    /// has it: texts of others may be in it.
+    /// Writes a text and flushes it. What would steer a terminal is escaped: texts of others may be in it.
     pub(crate) fn text(&mut self, text: &str) {
-        let is_json = text.trim_start().starts_with(['{', '[']);
-        self.styled(&if is_json { escaped_json(text) } else { escaped(text) });
+        self.styled(&escaped(text));
+    }
+
+    /// Writes documents of JSON and flushes them. What would steer a terminal is escaped as JSON has it.
+    pub(crate) fn json(&mut self, text: &str) {
+        self.styled(&escaped_json(text));
+    }
+
+    /// Writes a document in its notation and flushes it.
+    pub(crate) fn document(&mut self, text: &str, is_json: bool) {
+        if is_json { self.json(text) } else { self.text(text) }
     }
 
     /// Writes a text with its own colours, in which the texts of others are escaped, and flushes it.
@@ -73,12 +81,12 @@ impl Output {
         }
     }
 
-    /// Writes a text to a file, or to stdout without one or for `-`.
-    pub(crate) fn file(&mut self, path: Option<&Path>, text: &str) -> Result<(), CliError> {
+    /// Writes a document to a file, or to stdout without one or for `-`.
+    pub(crate) fn file(&mut self, path: Option<&Path>, text: &str, is_json: bool) -> Result<(), CliError> {
         match path {
             Some(path) if path.as_os_str() != "-" => replace_file(path, text),
             Some(_) | None => {
-                self.text(text);
+                self.document(text, is_json);
                 Ok(())
             }
         }
@@ -87,6 +95,11 @@ impl Output {
     /// Writes a text and a line break.
     pub(crate) fn line(&mut self, text: &str) {
         self.text(&format!("{text}\n"));
+    }
+
+    /// Writes a document of JSON and a line break.
+    pub(crate) fn json_line(&mut self, text: &str) {
+        self.json(&format!("{text}\n"));
     }
 
     /// Is `true` after the first write.

@@ -360,11 +360,11 @@ impl Tally {
         match (&fixed.change, &found.path) {
             (Some((before, after)), _) if args.diff => report.out.text(&diff(&found.name, before, after)),
             (Some((_, after)), Some(path)) => replace_file(path, after)?,
-            (Some((_, after)), None) => report.out.text(after),
+            (Some((_, after)), None) => report.out.document(after, found.is_json()),
             (None, _) => {
                 let is_printed = found.name == "-" && args.is_fixing() && !args.diff;
                 if let (true, Bytes::All(bytes)) = (is_printed, &found.bytes) {
-                    report.out.text(&String::from_utf8_lossy(bytes));
+                    report.out.document(&String::from_utf8_lossy(bytes), found.is_json());
                 }
             }
         }

@@ -111,6 +111,7 @@ fn compile(args: &CompileArgs, report: &mut Report) -> Result<Exit, CliError> {
     if !text.ends_with('\n') {
         text.push('\n');
     }
-    report.out.file(args.output.as_deref(), &text)?;
+    let is_json = matches!(args.emit, Emit::Graph | Emit::Json);
+    report.out.file(args.output.as_deref(), &text, is_json)?;
     Ok(Exit::Success)
 }

@@ -131,9 +131,9 @@ fn plan(
     match motet::document::write(&parsed, None, opened.session.library(), to.into()) {
         // Several JSON documents are printed on one line each.
         Ok(text) if to == SyntaxArg::Json && !is_only => {
-            report.out.line(&text.lines().map(str::trim).collect::<Vec<_>>().join(" "));
+            report.out.json_line(&text.lines().map(str::trim).collect::<Vec<_>>().join(" "));
         }
-        Ok(text) => report.out.line(text.trim_end()),
+        Ok(text) => report.out.document(&format!("{}\n", text.trim_end()), to == SyntaxArg::Json),
         Err(why) => return refuse(place, &why),
     }
     if is_wrong { Exit::Findings } else { Exit::Success }

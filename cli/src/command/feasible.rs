@@ -85,7 +85,7 @@ fn answer(args: &FeasibleArgs, report: &mut Report) -> Result<Exit, CliError> {
         let progress = progress.get_or_insert_with(|| Progress::of_items(verdict.left + 1, "deciding"));
         progress.suspend(|| match args.format {
             OutputFormat::Human => report.out.text(&verdict.text),
-            OutputFormat::Json => report.out.line(&verdict.json),
+            OutputFormat::Json => report.out.json_line(&verdict.json),
         });
         progress.advance(1);
         if !args.all && !matches!(verdict.answer, MotionAnswer::Feasible(_)) {

@@ -120,7 +120,8 @@ impl Tally {
                     SyntaxArg::Text if self.written > 0 => format!("\n{text}"),
                     SyntaxArg::Json | SyntaxArg::Text => text,
                 };
-                report.out.line(text.trim_end_matches('\n'));
+                let text = format!("{}\n", text.trim_end_matches('\n'));
+                report.out.document(&text, to == SyntaxArg::Json);
                 self.written += 1;
             }
             Err(why) => {
@@ -151,7 +152,9 @@ impl Tally {
             self.failed += usize::from(!is_reply);
             self.replies += usize::from(is_reply);
             if let (true, None, Bytes::All(bytes)) = (is_reply, &found.path, &found.bytes) {
-                report.out.text(&String::from_utf8_lossy(bytes));
+                report
+                    .out
+                    .document(&String::from_utf8_lossy(bytes), parsed.syntax == motet_syntax::Syntax::Json);
             }
             return Ok(());
         }
@@ -170,7 +173,7 @@ impl Tally {
             }
             Some(path) if !is_same => replace_file(path, &text)?,
             Some(_) => {}
-            None => report.out.text(&text),
+            None => report.out.document(&text, parsed.syntax == motet_syntax::Syntax::Json),
         }
         Ok(())
     }

@@ -157,7 +157,8 @@ fn print(args: &GrammarArgs, report: &mut Report) -> Result<Exit, CliError> {
                 .ok_or_else(|| needs_json("`--format json-schema` is"))?
         }
     };
-    report.out.text(&text);
+    let is_json = args.request.is_some() || notation(args) == Notation::JsonSchema;
+    report.out.document(&text, is_json);
     Ok(Exit::Success)
 }
 

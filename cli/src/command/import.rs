@@ -159,7 +159,9 @@ fn map(args: &MapArgs, report: &mut Report) -> Result<Exit, CliError> {
         }
     }
     report.print(&diagnostics, &sources);
-    scene.map_or(Ok(Exit::Findings), |scene| write(&scene::write(&scene), args.output.as_deref(), report))
+    scene.map_or(Ok(Exit::Findings), |scene| {
+        write(&scene::write(&scene), true, args.output.as_deref(), report)
+    })
 }
 
 fn sdf(args: &SdfArgs, report: &mut Report) -> Result<Exit, CliError> {
@@ -170,7 +172,9 @@ fn sdf(args: &SdfArgs, report: &mut Report) -> Result<Exit, CliError> {
         (scene, diagnostics) = import::read_sdf(&source, file);
     }
     report.print(&diagnostics, &sources);
-    scene.map_or(Ok(Exit::Findings), |scene| write(&scene::write(&scene), args.output.as_deref(), report))
+    scene.map_or(Ok(Exit::Findings), |scene| {
+        write(&scene::write(&scene), true, args.output.as_deref(), report)
+    })
 }
 
 /// Reads an image. What exceeds the greatest map as text is cut, so that its reader reports the size.
@@ -181,8 +185,8 @@ fn read_image(path: &Path) -> Result<Vec<u8>, CliError> {
     Ok(bytes)
 }
 
-fn write(text: &str, output: Option<&Path>, report: &mut Report) -> Result<Exit, CliError> {
-    report.out.file(output, text)?;
+fn write(text: &str, is_json: bool, output: Option<&Path>, report: &mut Report) -> Result<Exit, CliError> {
+    report.out.file(output, text, is_json)?;
     Ok(Exit::Success)
 }
 
@@ -201,7 +205,7 @@ fn pddl(args: &PddlArgs, report: &mut Report) -> Result<Exit, CliError> {
     report.print(&diagnostics, &sources);
     let Some(imported) = imported else { return Ok(Exit::Findings) };
     let text = if args.plan.is_some() { imported.policy_text() } else { imported.declarations_text() };
-    write(&text, args.output.as_deref(), report)
+    write(&text, false, args.output.as_deref(), report)
 }
 
 fn read(

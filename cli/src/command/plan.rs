@@ -49,7 +49,9 @@ fn plan(args: &PlanArgs, report: &mut Report) -> Result<Exit, CliError> {
             let sources = opened.sources(Source::new("plan.motet", planned.text.as_str()));
             report.print(&planned.compiled.diagnostics, &sources);
             match motet::document::write(&planned.parsed, None, opened.session.library(), args.to.into()) {
-                Ok(text) => report.out.line(text.trim_end()),
+                Ok(text) => {
+                    report.out.document(&format!("{}\n", text.trim_end()), args.to == SyntaxArg::Json)
+                }
                 Err(why) => return Ok(refuse(&why.to_string())),
             }
             Ok(Exit::Success)

@@ -54,7 +54,7 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<Exit, CliError> {
     let mut out = Output::default();
     let state = last.and_then(|_| player.state());
     if args.json {
-        out.line(&player.json(state.as_ref()));
+        out.json_line(&player.json(state.as_ref()));
     } else {
         if let Some(state) = &state {
             out.text(&described(state));

@@ -186,7 +186,7 @@ fn capabilities(driver: &dyn Driver, has_person: bool) -> Capabilities {
 /// Says which primitives the driver does not have, and the lines of their first calls.
 fn refuse(missing: &[MissingPrimitive], text: &PolicyText, format: OutputFormat, report: &mut Report) {
     if format == OutputFormat::Json {
-        report.out.line(&events::refused(missing, &|path| text.line(path)));
+        report.out.json_line(&events::refused(missing, &|path| text.line(path)));
     }
     let place = |one: &MissingPrimitive| match text.line(&one.path) {
         Some(line) => format!("`{}` ({}:{line})", one.name, escape(&text.name)),
@@ -245,7 +245,7 @@ pub(super) fn compile(
         OutputFormat::Human => report.print(&compiled.diagnostics, &sources),
         OutputFormat::Json => {
             let lines = events::diagnostics(&compiled.diagnostics, &sources);
-            lines.iter().for_each(|line| report.out.line(line));
+            lines.iter().for_each(|line| report.out.json_line(line));
         }
     }
     if let Some(graph) = compiled.graph {

@@ -189,6 +189,6 @@ fn draw(
     require("scene", &fit(&scene, &urdf), &sources, report)?;
     let machine = RobotModel::new(&robot, &urdf);
     let svg = decide_in((&machine, &scene), [], 1, &mut |_| ControlFlow::Continue(()));
-    report.out.file(output, &svg)?;
+    report.out.file(output, &svg, false)?;
     Ok(Exit::Success)
 }

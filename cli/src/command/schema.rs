@@ -48,6 +48,6 @@ pub(crate) fn run(args: &SchemaArgs) -> Result<Exit, CliError> {
     let text = serde_json::to_string_pretty(&schema)
         .map_err(|error| CliError::Message(format!("cannot write the schema: {error}")))?;
     let mut out = Output::default();
-    out.line(&text);
+    out.json_line(&text);
     report::close(&mut out, Ok(Exit::Success))
 }

@@ -153,13 +153,13 @@ impl<'a> RunObserver<'a> {
 
     /// Says something to the person.
     pub(super) fn say(&mut self, question: &str, answer: &str) {
-        let line = match self.args.format {
-            OutputFormat::Human => printable(answer),
+        match self.args.format {
+            OutputFormat::Human => self.out.line(&printable(answer)),
             OutputFormat::Json => {
-                json!({"event": "answered", "question": question, "answer": answer}).to_string()
+                let line = json!({"event": "answered", "question": question, "answer": answer});
+                self.out.json_line(&line.to_string());
             }
-        };
-        self.out.line(&line);
+        }
         self.tell_page(&json!({"t": "say", "who": "robot", "text": escape(answer)}));
         self.go_below();
     }

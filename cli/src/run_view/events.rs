@@ -28,7 +28,7 @@ impl View for Events {
 
     fn effect(&mut self, now: Time, effect: &Effect) {
         if let Some(line) = self.events.effect(now, effect) {
-            self.out.line(&line);
+            self.out.json_line(&line);
         }
     }
 
@@ -41,6 +41,6 @@ impl View for Events {
     }
 
     fn finish(&mut self, now: Time, end: &RunEnd) {
-        self.out.line(&self.events.finish(now, end));
+        self.out.json_line(&self.events.finish(now, end));
     }
 }

@@ -68,14 +68,14 @@ pub(super) fn lint(args: &LintArgs, report: &mut Report) -> Result<Exit, CliErro
             }
             for finding in linter.line(&file, number, line) {
                 wrong.insert((file.clone(), number));
-                report.out.line(&shown(&finding, args.format));
+                report.out.document(&shown(&finding, args.format), args.format == OutputFormat::Json);
             }
             Ok(if report.out.is_closed() { Flow::Stop } else { Flow::Continue })
         })?;
     }
     let unused = images.unused(&args.files)?;
     for finding in &unused {
-        report.out.line(&shown(finding, args.format));
+        report.out.document(&shown(finding, args.format), args.format == OutputFormat::Json);
     }
     if rows == 0 {
         note("the files hold no rows");
@@ -83,7 +83,7 @@ pub(super) fn lint(args: &LintArgs, report: &mut Report) -> Result<Exit, CliErro
     }
     let shares = counts.shares();
     for share in shares.iter().filter(|share| args.shares || (args.minimums && share.is_low())) {
-        report.out.line(&shown_share(*share, args));
+        report.out.document(&shown_share(*share, args), args.format == OutputFormat::Json);
     }
     note(&format!("{}, {} with findings", count(rows, "row"), wrong.len()));
     let is_low = args.minimums && shares.iter().any(|share| share.is_low());
@@ -96,12 +96,12 @@ fn shown_share(share: Share, args: &LintArgs) -> String {
     match args.format {
         OutputFormat::Human => {
             let least = least.map(|least| format!(", less than {least:.0} %")).unwrap_or_default();
-            format!("{group} {name}: {percent:.1} %, {} of {}{least}", share.rows, share.of)
+            format!("{group} {name}: {percent:.1} %, {} of {}{least}\n", share.rows, share.of)
         }
         OutputFormat::Json => {
             let is_low = least.is_some();
-            json!({"group": group, "name": name, "rows": share.rows, "of": share.of, "low": is_low})
-                .to_string()
+            let (rows, of) = (share.rows, share.of);
+            format!("{}\n", json!({"group": group, "name": name, "rows": rows, "of": of, "low": is_low}))
         }
     }
 }
@@ -112,12 +112,13 @@ fn shown(finding: &Finding, format: OutputFormat) -> String {
         OutputFormat::Human => {
             let other = other.as_ref().map(|other| format!(": {}:{}", other.file, other.row));
             let row = if at.row > 0 { format!(":{}", at.row) } else { String::new() };
-            format!("{}{row}: {}: {message}{}", at.file, fault.name(), other.unwrap_or_default())
+            format!("{}{row}: {}: {message}{}\n", at.file, fault.name(), other.unwrap_or_default())
         }
         OutputFormat::Json => {
             let other = other.as_ref().map(|other| json!({"file": other.file, "row": other.row}));
-            json!({"file": at.file, "row": at.row, "fault": fault.name(), "message": message, "other": other})
-                .to_string()
+            let (file, row, fault) = (&at.file, at.row, fault.name());
+            let line = json!({"file": file, "row": row, "fault": fault, "message": message, "other": other});
+            format!("{line}\n")
         }
     }
 }

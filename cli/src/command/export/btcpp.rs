@@ -44,7 +44,7 @@ pub(super) fn run(args: &BtcppArgs, colors: Colors) -> Result<Exit, CliError> {
         let Some(graph) = compiled.graph else { return Ok(Exit::Findings) };
         match motet_btcpp::export(&graph, &opened.session.signatures().leaves()) {
             Ok(text) => {
-                report.out.file(args.output.as_deref(), &text)?;
+                report.out.file(args.output.as_deref(), &text, false)?;
                 Ok(Exit::Success)
             }
             Err(refused) => {

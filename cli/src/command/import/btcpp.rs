@@ -56,7 +56,7 @@ pub(super) fn run(args: &BtcppArgs, report: &mut Report) -> Result<Exit, CliErro
     }
     report.print(&found, &sources);
     match written {
-        Ok(text) => report.out.file(args.output.as_deref(), &text)?,
+        Ok(text) => report.out.file(args.output.as_deref(), &text, false)?,
         Err(why) => return Err(CliError::Message(why)),
     }
     let is_refused = found.iter().any(|finding| finding.severity == Severity::Error);

@@ -88,7 +88,7 @@ fn print_scene(scene: &DriverScene, format: OutputFormat, report: &mut Report) {
         OutputFormat::Json => {
             let laws: Vec<_> = broken.iter().map(|(law, told)| json!({"law": law, "told": told})).collect();
             let messages = if broken.is_empty() { None } else { Some(messages) };
-            report.out.line(&json!({"scene": name, "broken": laws, "messages": messages}).to_string());
+            report.out.json_line(&json!({"scene": name, "broken": laws, "messages": messages}).to_string());
         }
     }
 }

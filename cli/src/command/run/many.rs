@@ -135,7 +135,7 @@ pub(super) fn run(file: &Path, args: &RunArgs, report: &mut Report) -> Result<Ex
                         if let (Value::Object(all), Value::Object(line)) = (&mut all, line) {
                             all.extend(line);
                         }
-                        progress.suspend(|| report.out.line(&all.to_string()));
+                        progress.suspend(|| report.out.json_line(&all.to_string()));
                         Ok(())
                     }
                 });
