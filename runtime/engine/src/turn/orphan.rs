@@ -11,7 +11,7 @@ use crate::prepared_graph::PreparedGraph;
 use crate::state::{GoalIntent, OrphanGoal, Phase};
 use crate::time::Time;
 use crate::trace::{EndCause, NodeEnding, TraceEvent, TraceEventKind};
-use motet_graph::{FailureId, NodeId, NodeKind, ROOT, TIMEOUT, Value};
+use motet_graph::{Fact, FailureId, Graph, NodeId, NodeKind, ROOT, TIMEOUT, Value};
 use smol_str::SmolStr;
 use std::sync::Arc;
 
@@ -129,6 +129,19 @@ impl Turn<'_> {
                 self.out.push(Effect::Cancel { goal: orphan.goal });
             }
         }
+    }
+
+    /// Returns whether a goal may change a fact that the present policy was proven from.
+    fn may_undo_proof(&self, orphan: &OrphanGoal) -> bool {
+        let Some(call) = orphan.plan.call(orphan.node) else { return false };
+        let name = |graph: &Graph, fact: &Fact| {
+            graph.fluents.get(fact.fluent.index()).map(|fluent| fluent.name.clone())
+        };
+        let made = call.effects.iter().map(|effect| &effect.fact);
+        let changes = made.chain(call.unsettles.iter().map(|unsettled| &unsettled.fact));
+        let changed: Vec<_> = changes.map(|fact| name(&orphan.plan.graph, fact)).collect();
+        let plan = self.plan;
+        plan.graph.initial.iter().any(|told| changed.contains(&name(&plan.graph, &told.fact)))
     }
 
     /// Position where a goal stands among the orphans.
@@ -353,6 +366,8 @@ impl Turn<'_> {
         // What the old policy alone depended on concerns nobody any more.
         self.run.beliefs.changed.clear();
         self.report(move || TraceEventKind::Swapped { policy: graph.policy.as_str().into() });
+        // What they will have changed is known only at their end: a proof from before does not count.
+        self.run.is_unproven = self.run.orphans.iter().any(|orphan| self.may_undo_proof(orphan));
         if self.run.begun {
             self.enter_region(ROOT);
             self.settle();
