@@ -289,6 +289,9 @@ class Beliefs:
             self._readings[query] = (answer, self.now)
             return
         cell = self.intern(query)
+        if answer is None:
+            # Nobody can tell now: what was believed stands.
+            return
         self.observations += 1
         self._observing = self.observations
         # That none fits says something of each; that some does, or that it is not known, says nothing of any.

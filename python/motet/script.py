@@ -141,6 +141,8 @@ class Robot:
         self._deadlines: list[_Deadline] = []
         #: True if a result was another one than the proofs assume.
         self._is_unproven = False
+        #: True once a wait began whose condition was believed to be false: the world may undo what calls made.
+        self._looks_afresh = False
         for id, kind in script.entities.items():
             self.beliefs.hear(Entity(id), kind)
         for known in script.known:
@@ -199,13 +201,13 @@ class Robot:
 
     async def _ready(self, args: dict[str, Any], contract: Contract, is_again: bool) -> dict[str, Any]:
         """The arguments of a call whose guards hold, after the observations that they ask for."""
-        since, seen = self._now(), self.beliefs.observations
-        missing: list[Any] = []
+        since, missing = self._now(), list[Any]()
+        seen = self.beliefs.observations if is_again or self._looks_afresh else None
         look = self._look(since, missing)
-        refused, values = self._guards(look, seen if is_again else None, args, contract)
+        refused, values = self._guards(look, seen, args, contract)
         if (refused is not None or None in values.values()) and missing:
             await self._observe(missing)
-            refused, values = self._guards(self._look(since, []), seen if is_again else None, args, contract)
+            refused, values = self._guards(self._look(since, []), seen, args, contract)
         if refused is not None:
             raise Failed(refused)
         if None in values.values():
@@ -226,7 +228,7 @@ class Robot:
                 continue
             truth = self._need(need, look)
             if truth is False and seen is not None:
-                # A retry looks afresh: what refused it before may have changed.
+                # A retry looks afresh, and so does what comes behind a wait: it may have changed.
                 truth = self._need(need, replace(look, seen=seen))
             if truth is False:
                 raise Failed(need.failure)
@@ -401,6 +403,7 @@ class Robot:
     async def wait_until(self, condition: Any, within: float) -> None:
         """Waits until a condition holds. Raises `Failed` after `within` seconds."""
         begun = self._now()
+        self._looks_afresh |= self._look(begun, []).truth(condition) is False
         while True:
             missing: list[Any] = []
             if self._look(begun, missing).truth(condition) is True:
