@@ -2,7 +2,9 @@
 //! from a guard that has refused.
 
 use motet_graph::{Graph, NodeKind, Value, Verdict};
-use motet_runtime::{Answer, DriverEvent, Effect, Engine, Event, Outcome, Pattern, Query, StartState, Time};
+use motet_runtime::{
+    Answer, DriverEvent, Effect, Engine, Event, Outcome, Pattern, PreparedSwap, Query, StartState, Time,
+};
 use motet_syntax::{FileId, Source, Sources};
 use motet_tests::setup;
 
@@ -294,6 +296,31 @@ fn soundness_a_driver_that_cannot_tell_takes_nothing_back() {
         std::iter::once(blind).chain(honest(effect, |_| None)).collect()
     });
     assert!(found.iter().any(|request| request.contains("use")), "{found:?}");
+}
+
+/// A goal that a swap cancels may end in success, and change what the new policy was proven from.
+#[test]
+fn soundness_a_policy_that_takes_over_asks_what_the_goals_before_it_change() {
+    let of = |steps: &str| {
+        let find = "perception find(what: Text) -> Object\n    makes not f(result)\n    uses base\n";
+        compiled(&format!("{find}initially f(a)\npolicy p {{ {steps} }}"))
+    };
+    let (mut engine, mut out) = (Engine::new(of("find(\"x\")"), &StartState::default()).unwrap(), Vec::new());
+    engine.handle(Time::ZERO, Event::Begin, &mut out);
+    let later = PreparedSwap::new(of("pass() use(a)"), &engine.running()).unwrap();
+    engine.swap(Time::ZERO, later, &mut out).unwrap();
+    let goals = out.iter().filter_map(|effect| match effect {
+        Effect::Start { goal, .. } => Some(*goal),
+        _ => None,
+    });
+    let goals: Vec<_> = goals.collect();
+    assert_eq!(goals.len(), 2, "{out:?}");
+    for (goal, value) in goals.into_iter().zip([Some(Value::Entity("a".into())), None]) {
+        let ended = DriverEvent::Ended { goal, outcome: Outcome::Success(value) };
+        engine.handle(Time::from_secs(1.0), Event::Driver(ended), &mut out);
+    }
+    let starts = out.iter().filter(|effect| matches!(effect, Effect::Start { .. }));
+    assert_eq!(starts.count(), 2, "{out:#?}");
 }
 
 /// Domain of needs and effects that are about each object.

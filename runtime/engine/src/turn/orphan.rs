@@ -163,7 +163,8 @@ impl Turn<'_> {
                 None
             }
             DriverEvent::Refused { failure, .. } => failed(failure.kind, EndCause::Refused),
-            DriverEvent::Ended { outcome: Outcome::Success(_), .. } => {
+            DriverEvent::Ended { outcome: Outcome::Success(value), .. } => {
+                self.bind_result(index, value);
                 Some((NodeEnding::Success, EndCause::Completed))
             }
             DriverEvent::Ended { outcome: Outcome::Failure(failure), .. } => {
@@ -187,6 +188,20 @@ impl Turn<'_> {
         };
         if let Some((ending, cause)) = end {
             self.orphan_ended(index, ending, cause);
+        }
+    }
+
+    /// The effects of an orphan may be about its result.
+    fn bind_result(&mut self, index: usize, value: Option<Value>) {
+        let Some(orphan) = self.run.orphans.get_mut(index) else { return };
+        let (graph, call) = (&orphan.plan.graph, orphan.plan.call(orphan.node));
+        let Some(binds) = call.and_then(|call| call.binds) else { return };
+        let declared = graph.bindings.get(binds.index());
+        let entities = &self.run.beliefs.entities;
+        let fits = |value: &Value| declared.is_some_and(|it| entities.fits(graph, value, &it.ty));
+        let value = value.filter(fits);
+        if let Some(slot) = Arc::make_mut(&mut orphan.bindings).get_mut(binds.index()) {
+            *slot = value;
         }
     }
 
