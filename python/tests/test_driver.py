@@ -23,7 +23,7 @@ class Robot(Driver):
     async def go(self, goal, to):
         for _ in range(10):
             await goal.sleep(1.0)
-            await goal.feedback(f"nearer to {goal.args['to']}")
+            await goal.feedback(f"nearer to {goal.args['to']}", own_motion=not goal.motion.path)
             if goal.cancelled():
                 self.said.append("braked")
                 return
@@ -221,6 +221,7 @@ def test_a_held_goal_takes_no_time_and_a_new_target(host):
     host.call("proceed", goal=1)
     host.pass_until(29.0)
     assert [of["text"] for of in host.of("feedback")][:2] == ["nearer to table", "nearer to shelf"]
+    assert host.of("feedback")[0]["own_motion"] is True, "it has no witness to follow"
     assert host.of("ended") == [{"goal": 1, "outcome": {"success": None}}]
     host.start(2, "say", text={"text": "hi"})
     assert host.call("hold", goal=2)["message"] == "`say` cannot be held"

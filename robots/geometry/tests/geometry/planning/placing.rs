@@ -405,3 +405,28 @@ fn reach_at_takes_a_long_thing_at_the_end_that_is_asked_for() {
         assert!((tip.y - point.y).abs() < 0.02, "{off}: {tip} for {point}");
     }
 }
+
+#[test]
+fn reach_at_moves_the_object_against_nothing() {
+    let beside_rail = |has_rail: bool| {
+        changed(|scene| {
+            scene.entities.retain(|id, entity| entity.kind != "Object" || id == "mug_1");
+            let mug = &mut scene.entities["mug_1"];
+            mug.shape = Some(EntityShape::Box([0.2, 0.06, 0.1]));
+            mug.pose.as_mut().unwrap().xyz = [1.9, 0.4, 0.77];
+            let mut rail = mug.clone();
+            rail.id = "rail".into();
+            rail.shape = Some(EntityShape::Box([0.2, 0.02, 0.02]));
+            rail.pose.as_mut().unwrap().xyz = [1.9, 0.45, 0.73];
+            if has_rail {
+                scene.entities.insert("rail".into(), rail);
+            }
+        })
+    };
+    // Low enough for the fingers, it is 1 cm from the object, which they would move by 3 cm.
+    let is_feasible = |has_rail: bool, off: f64| {
+        matches!(at_point(&beside_rail(has_rail), [0.0, off, 0.0]).0, MotionAnswer::Feasible(_))
+    };
+    assert_eq!([-0.03, 0.0, 0.03].map(|off| is_feasible(true, off)), [true, true, false]);
+    assert!(is_feasible(false, 0.03));
+}
