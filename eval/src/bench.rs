@@ -145,7 +145,8 @@ impl Bench {
         let (seed, motet) = (seed.to_string(), motet_program());
         let words =
             [PYTHON, "-m", "motet_mujoco", "--robot", &robot.name, "--scene", &scene, "--told", &told];
-        let more = ["--seed", &seed, "--profile", &self.world, "--motet", &motet];
+        // The robot sees by pixels; the truth is for the judge of the trial.
+        let more = ["--seed", &seed, "--profile", &self.world, "--motet", &motet, "--oracle", "judge"];
         let words = words.into_iter().chain(more).map(str::to_owned).collect();
         let hello = Hello { run: format!("eval-{seed}"), robot: robot.name.to_string(), ..Hello::default() };
         let address = DriverAddress::Command(words);
