@@ -113,6 +113,7 @@ def feasible(
     scene: str,
     motions: Sequence[str] | None,
     *,
+    state: str | None,
     effort: int,
     base_m: float | None,
     arm_m: float | None,

@@ -56,7 +56,7 @@ class Graph:
         """
         graph = self.to_dict()
         found: set[str] = set()
-        _asked([graph["nodes"], graph["goal"]], graph, found)
+        _asked([graph["nodes"], graph.get("goal")], graph, found)
         return frozenset(found)
 
     def to_json(self) -> str:

@@ -10,7 +10,7 @@ from html import escape
 from typing import Any, Literal, overload
 
 from . import _motet
-from .inputs import Clearance, RobotLike, SceneLike, factor, metres, name_or_json
+from .inputs import Clearance, RobotLike, SceneLike, StateLike, factor, metres, name_or_json
 from .report import Report
 
 __all__ = ["Feasibility", "MotionVerdict", "feasible"]
@@ -35,6 +35,9 @@ class MotionVerdict:
     change: str | None
     certified: bool
     numbers: Mapping[str, float]
+
+    def __str__(self) -> str:
+        return self.text
 
     @classmethod
     def _of(cls, text: str, line: str) -> MotionVerdict:
@@ -103,10 +106,12 @@ def feasible(
     *,
     robot: RobotLike,
     scene: SceneLike,
+    state: StateLike | None = None,
     effort: int = 1,
     clearance: Clearance | None = None,
 ) -> Feasibility:
-    """Decides motions, each from the start of the scene: all motions of the scene, or those given.
+    """Decides motions, each from the start of the scene: all motions of the scene, or those given. `state` has facts at the
+    start, beside those of the scene.
 
     A motion is a call such as `go_to(shelf)`, `reach(mug_1, top)` or `put(mug_1, shelf)`. `effort` is the factor of the search
     budget, `clearance` the distances from obstacles in m. Raises `motet.InputError`.
@@ -118,6 +123,12 @@ def feasible(
     given = None if motions is None else [motions] if isinstance(motions, str) else list(motions)
     base_m, arm_m = metres(clearance)
     verdicts, svg, findings = _motet.feasible(
-        name_or_json(robot), name_or_json(scene), given, effort=factor(effort), base_m=base_m, arm_m=arm_m
+        name_or_json(robot),
+        name_or_json(scene),
+        given,
+        state=None if state is None else name_or_json(state),
+        effort=factor(effort),
+        base_m=base_m,
+        arm_m=arm_m,
     )
     return Feasibility(verdicts, svg, Report(findings))

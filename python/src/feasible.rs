@@ -1,5 +1,7 @@
 //! Verdicts on motions.
 
+use std::path::PathBuf;
+
 use motet::feasible::{FeasibilityQuestion, Motions, decide};
 use motet::robots::clearance::ClearanceOverride;
 use pyo3::prelude::*;
@@ -13,12 +15,14 @@ type Verdicts = (Vec<(String, String)>, String, Findings);
 /// The verdicts on motions, or on all motions of a scene, as pairs of text and JSON; a drawing as SVG; and
 /// the findings on the inputs.
 #[pyfunction]
-#[pyo3(signature = (robot, scene, motions, *, effort, base_m, arm_m))]
+#[expect(clippy::too_many_arguments, reason = "they are keywords")]
+#[pyo3(signature = (robot, scene, motions, *, state, effort, base_m, arm_m))]
 pub(crate) fn feasible(
     py: Python<'_>,
     robot: &str,
     scene: &str,
     motions: Option<Vec<String>>,
+    state: Option<PathBuf>,
     effort: u16,
     base_m: Option<f64>,
     arm_m: Option<f64>,
@@ -27,6 +31,7 @@ pub(crate) fn feasible(
         state: None,
         robot,
         scene,
+        state: state.as_deref(),
         motions: motions.as_deref().map_or(Motions::All, Motions::These),
         effort,
         clearance: ClearanceOverride { base_m, arm_m },

@@ -171,6 +171,12 @@ def test_feasible_answers_what_the_command_answers(command, tmp_path):
     assert str(found) == command("feasible", *flags, "--svg", tmp_path / "a.svg")
     assert found.svg == (tmp_path / "a.svg").read_text()
     assert found.ok and found[0].witness["path"][0]["base"] and found[0].query == "reach(mug_1)"
+    assert str(found[0]) == found[0].text
+    shut = ("--state", json.dumps({"open(fridge_1)": False}))
+    flags = ["--robot", "hsr", "--scene", "kitchen", "--for", "reach(bottle)"]
+    assert motet.feasible("reach(bottle)", robot="hsr", scene="kitchen", state={"open(fridge_1)": False}).to_json() == command(
+        "feasible", *flags, *shut, "--format", "json"
+    )
     with pytest.raises(motet.InputError, match="there is no motion `fly`"):
         motet.feasible("fly", robot="hsr", scene="kitchen")
 
