@@ -191,7 +191,9 @@ fn sbom(packages: &BTreeMap<(String, Version), Package>) -> Value {
         "bomFormat": "CycloneDX",
         "specVersion": "1.5",
         "version": 1,
-        "metadata": {"component": {"type": "application", "name": "motet", "version": env!("CARGO_PKG_VERSION")}},
+        "metadata": {
+            "component": {"type": "application", "name": "motet", "version": env!("CARGO_PKG_VERSION")},
+        },
         "components": packages.values().map(component).collect::<Vec<_>>(),
     })
 }
