@@ -25,11 +25,10 @@ pub(super) fn misplaced(files: &[SourceFile], table: &str) -> Measure {
             file.lines.iter().enumerate().filter_map(|(at, line)| Some((at + 1, code(line)?)))
         {
             let fits = |pattern: &str| stands_for(pattern, code);
-            if !is_apart || !own.is_some_and(|row| row.patterns.iter().any(|pattern| fits(pattern))) {
+            if !is_apart || own.is_none_or(|row| !row.patterns.iter().any(|pattern| fits(pattern))) {
                 places.push(format!("{}:{number}: {code}", file.path));
             }
-            unused
-                .retain(|(folder, pattern)| !own.is_some_and(|row| row.folder == *folder) || !fits(pattern));
+            unused.retain(|(folder, pattern)| own.is_none_or(|row| row.folder != *folder) || !fits(pattern));
         }
     }
     places.extend(unused.iter().map(|(folder, pattern)| format!("ARCHITECTURE.md: {pattern} of {folder}")));
@@ -50,14 +49,14 @@ fn row(line: &str) -> Option<CodeRow<'_>> {
 
 /// Code that a line of a macro declares: `Refuted("M0501", Error) {`, or without a severity.
 fn code(line: &str) -> Option<&str> {
-    let (name, rest) = line.trim_start().split_once("(\"M")?;
-    let end = rest.find('"')?;
+    let (name, rest) = line.trim_start().split_once("(\"")?;
+    let (code, then) = rest.split_once('"')?;
     let is_name =
         name.starts_with(|c: char| c.is_ascii_uppercase()) && name.chars().all(char::is_alphanumeric);
-    let is_severity = [")", ", Error)", ", Warning)"].iter().any(|then| rest[end + 1..].starts_with(then));
-    let is_code = end == 4 && rest[..end].bytes().all(|byte| byte.is_ascii_digit());
-    let from = line.len() - rest.len() - 1;
-    (is_name && name != "Code" && is_severity && is_code).then(|| &line[from..from + 5])
+    let is_severity = [")", ", Error)", ", Warning)"].iter().any(|end| then.starts_with(end));
+    let digits = code.strip_prefix('M')?;
+    let is_code = digits.len() == 4 && digits.bytes().all(|byte| byte.is_ascii_digit());
+    (is_name && name != "Code" && is_severity && is_code).then_some(code)
 }
 
 fn stands_for(pattern: &str, code: &str) -> bool {
