@@ -39,8 +39,8 @@ pub enum DriverAddressError {
     /// A quotation mark without its partner.
     #[error("a quotation mark is not closed")]
     Quote,
-    /// No host and port.
-    #[error("`{0}` is no host and port")]
+    /// No address and port, nor a port of `localhost`.
+    #[error("`{0}` is no address and port, such as 127.0.0.1:4000")]
     Socket(String),
     /// The driver protocol has no authentication and stays on the machine.
     #[error("`{0}` is not on this machine: only addresses such as 127.0.0.1 are called")]
@@ -54,8 +54,11 @@ impl FromStr for DriverAddress {
     /// quotes and no expansion.
     fn from_str(text: &str) -> Result<Self, DriverAddressError> {
         if let Some(place) = text.trim().strip_prefix("tcp://") {
-            let socket = place.to_socket_addrs().ok().and_then(|mut all| all.next());
-            let socket = socket.ok_or_else(|| DriverAddressError::Socket(place.to_owned()))?;
+            // No other name is looked up, which can take seconds and tells a server of names.
+            let named =
+                || place.strip_prefix("localhost:").and_then(|_| place.to_socket_addrs().ok()?.next());
+            let socket = place.parse().ok().or_else(named);
+            let socket: SocketAddr = socket.ok_or_else(|| DriverAddressError::Socket(place.to_owned()))?;
             if !socket.ip().is_loopback() {
                 return Err(DriverAddressError::NotLoopback(socket));
             }
@@ -192,6 +195,9 @@ mod tests {
             "tcp://192.0.2.1:4000".parse::<DriverAddress>(),
             Err(DriverAddressError::NotLoopback(_))
         ));
-        assert!(matches!("tcp://127.0.0.1".parse::<DriverAddress>(), Err(DriverAddressError::Socket(_))));
+        assert!(matches!("tcp://localhost:4000".parse(), Ok(DriverAddress::Tcp(_))));
+        for place in ["tcp://127.0.0.1", "tcp://robot.example:4000", "tcp://localhost:x"] {
+            assert!(matches!(place.parse::<DriverAddress>(), Err(DriverAddressError::Socket(_))), "{place}");
+        }
     }
 }
