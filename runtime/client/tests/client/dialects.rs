@@ -3,6 +3,9 @@
 //! (`/v1/messages`, streaming, structured outputs, stop reasons), of the Gemini API (`generateContent`,
 //! finish reasons, `UsageMetadata`) and of mistral.rs (chunks, usage and errors of chat completions).
 
+use std::io::Read as _;
+use std::net::TcpListener;
+use std::sync::Arc;
 use std::time::Duration;
 
 use crate::kitchen::{brisk, session};
@@ -12,6 +15,8 @@ use motet_decode::export::{Dialect, GrammarCarrier};
 use motet_decode::{Grammar, Subset};
 use motet_planner::model::{Finish, Message, Model as _, ModelError, ReplyEvent, Role, TokenUsage};
 use motet_syntax::Syntax;
+use rustls::pki_types::pem::PemObject as _;
+use rustls::pki_types::{CertificateDer, PrivateKeyDer};
 use serde_json::{Value, json};
 
 /// Outcome of an exchange.
@@ -341,4 +346,42 @@ fn client_key_that_a_server_sends_back_is_cut_out() {
     let server = Server::new(vec![Act::AtOnce { text: format!("it is {KEY}") }]);
     let whole = Client::new(settings(&server, Dialect::OpenAi)).unwrap().once(&json!({})).unwrap();
     assert_eq!(content(None, &whole).as_deref(), Some("it is [key]"));
+}
+
+#[test]
+fn client_key_follows_no_redirect() {
+    let other = Server::new(vec![Act::says("hello")]);
+    for status in ["302 Found", "307 Temporary Redirect", "308 Permanent Redirect"] {
+        let place = other.url.replace("127.0.0.1", "localhost");
+        let headers = format!("Location: {place}/v1/chat/completions\r\n").leak();
+        let got = exchange(answer(status, headers, ""), |settings| settings, Dialect::Vllm);
+        assert!(got.heard[0].head.contains(KEY), "the server that is asked gets it");
+        let why = got.end.unwrap_err().to_string();
+        assert!(why.contains(&status[..3]), "{why}");
+    }
+    assert!(other.heard().is_empty(), "{:?}", other.heard());
+}
+
+#[test]
+fn client_says_nothing_to_a_server_whose_certificate_nobody_vouches_for() {
+    let pem = include_bytes!("recordings/untrusted.pem");
+    let chain = CertificateDer::pem_slice_iter(pem).map(Result::unwrap).collect();
+    let _ = rustls::crypto::ring::default_provider().install_default();
+    let config = rustls::ServerConfig::builder().with_no_client_auth();
+    let config = config.with_single_cert(chain, PrivateKeyDer::from_pem_slice(pem).unwrap()).unwrap();
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let url = format!("https://localhost:{}", listener.local_addr().unwrap().port());
+    let served = std::thread::spawn(move || {
+        let (mut stream, _) = listener.accept().unwrap();
+        let mut session = rustls::ServerConnection::new(Arc::new(config)).unwrap();
+        // It ends where the client refuses the certificate, and would read what a client that does not says.
+        let mut said = [0; 64];
+        let heard = rustls::Stream::new(&mut session, &mut stream).read(&mut said);
+        heard.map_err(|why| why.to_string())
+    });
+    let address = ServerUrl::new(&url, None).unwrap();
+    let settings = ClientSettings { key: ApiKey::new(KEY), retries: 0, ..ClientSettings::new(address, "m") };
+    let why = Client::new(settings).unwrap().once(&json!({})).unwrap_err().to_string();
+    assert!(why.to_lowercase().contains("certificate"), "{why}");
+    assert!(served.join().unwrap().is_err(), "it was spoken to");
 }
