@@ -50,7 +50,7 @@ impl Sim {
             }
             SimCommand::Inspect(id) => self.look_at(id).map(nothing),
             SimCommand::Say(text) => {
-                self.people.heard.push((self.world.now, text.clone()));
+                self.people.hear(self.world.now, text);
                 Ok(None)
             }
             SimCommand::Ask(_) => {

@@ -10,17 +10,28 @@ use motet_stdlib::lang::failures;
 use smol_str::SmolStr;
 use std::collections::VecDeque;
 
+/// Number of utterances that are kept at least; a run may go on for ever.
+const HEARD: usize = 1_000;
+
 /// People in the simulated room: scripted answers and heard utterances.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub(crate) struct People {
     answers: VecDeque<Option<String>>,
-    /// Utterances of the robot with the times at which they ended.
+    /// Latest utterances of the robot with the times at which they ended.
     pub(crate) heard: Vec<(Time, SmolStr)>,
 }
 
 impl People {
     pub(crate) fn new(answers: impl IntoIterator<Item = Option<String>>) -> Self {
         Self { answers: answers.into_iter().collect(), heard: Vec::new() }
+    }
+
+    /// Takes in what the robot has said.
+    pub(crate) fn hear(&mut self, now: Time, text: &SmolStr) {
+        if self.heard.len() >= 2 * HEARD {
+            self.heard.drain(..HEARD);
+        }
+        self.heard.push((now, text.clone()));
     }
 
     /// The answer to a question. A script says whether it is refused; without one `refuses` does.

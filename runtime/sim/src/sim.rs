@@ -165,7 +165,7 @@ impl Sim {
         self.world.answer(query, &self.initial_facts)
     }
 
-    /// Utterances of the robot with the times at which they ended.
+    /// Utterances of the robot with the times at which they ended, the latest thousand at least.
     #[must_use]
     pub fn said(&self) -> &[(Time, SmolStr)] {
         &self.people.heard
