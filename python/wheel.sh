@@ -5,5 +5,5 @@ cd "$(dirname "$0")/.."
 folder="$(mkdir -p "${CARGO_TARGET_DIR:-target}" && cd "${CARGO_TARGET_DIR:-target}" && pwd)"
 
 rm -rf "$folder/wheels"
-CARGO_TARGET_DIR="$folder" maturin build --locked --quiet --release -m python/Cargo.toml --out "$folder/wheels"
+CARGO_TARGET_DIR="$folder" maturin build --locked --quiet --release --compression-level 9 -m python/Cargo.toml --out "$folder/wheels"
 ls -l "$folder"/wheels/*.whl

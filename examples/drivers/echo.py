@@ -12,13 +12,16 @@ import motet  # noqa: E402
 class Echo(motet.Driver):
     name, can_hold, can_update = "echo 2.0", "all", "all"
 
+    def __init__(self, args):
+        self.seconds, self.refuse, self.owns_clock = args.seconds, args.refuse, args.clock == "driver"
+
     def begin_run(self, run):
         self.places = {}  # by thing that a goal has moved: what it is on, in or at; None in the hand
 
     async def perform(self, goal, **args):
-        if goal.primitive in options.refuse:
+        if goal.primitive in self.refuse:
             raise motet.Refused("unreachable")
-        await goal.sleep(options.seconds)
+        await goal.sleep(self.seconds)
         self.report_moved(base=[0.0, 0.0, 0.0])
         if goal.primitive in ("pick", "grasp", "place", "place_at", "handover"):
             self.places[args["object"]] = args.get("on", args.get("to"))
@@ -44,6 +47,5 @@ if __name__ == "__main__":
     parser.add_argument("--clock", choices=["wall", "driver"], default="wall", help="whose time a run goes by")
     parser.add_argument("--port", type=int, help="a TCP port instead of standard input and output; 0 takes a free one")
     parser.add_argument("--grace", type=float, default=10.0, help="seconds that goals go on for without a host, with --port")
-    options = parser.parse_args()
-    Echo.owns_clock = options.clock == "driver"
-    motet.serve(Echo(), options.port, options.grace)
+    arguments = parser.parse_args()
+    motet.serve(Echo(arguments), arguments.port, arguments.grace)

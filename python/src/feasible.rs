@@ -28,7 +28,6 @@ pub(crate) fn feasible(
     arm_m: Option<f64>,
 ) -> PyResult<Verdicts> {
     let question = FeasibilityQuestion {
-        state: None,
         robot,
         scene,
         state: state.as_deref(),

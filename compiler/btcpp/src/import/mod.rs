@@ -194,6 +194,8 @@ impl<'a, 't> Reader<'_, 'a, 't> {
         robot: Option<Name>,
         achieves: Option<Expr>,
     ) -> Policy {
+        // A tree that does nothing is a policy that is done.
+        let steps = if steps.is_empty() { vec![step::done(span)] } else { steps };
         Policy {
             doc: SmolStr::default(),
             name: Name { text: name.into(), span },

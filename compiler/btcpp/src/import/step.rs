@@ -32,6 +32,11 @@ pub(super) fn fail(why: &str, span: Span) -> Step {
     end(End { kind: EndKind::Fail, result: None, why, span })
 }
 
+/// A `done`.
+pub(super) fn done(span: Span) -> Step {
+    end(End { kind: EndKind::Done, result: None, why: None, span })
+}
+
 /// Step that does nothing and takes no time, for a block that must have one: an `else` alone would need a
 /// condition whose opposite is known.
 fn nothing(span: Span) -> Step {

@@ -79,7 +79,12 @@ fn imported_tree_is_exported_as_it_was() {
         let Ok(tree) = export(&graph, &leaves) else { continue };
         match compiled(&session, &tree) {
             Ok((again, is_cut)) => {
-                let again = export(&again, &leaves).unwrap();
+                let again = match export(&again, &leaves) {
+                    Ok(again) => again,
+                    // A wait for what is never so leaves a `fail` in its place, which no tree can say there.
+                    Err(_) if is_cut => continue,
+                    Err(why) => panic!("case {case}: {why:?}: {tree}"),
+                };
                 let bare = |text: &str| text.replace("main_tree_to_execute=\"sketch\" ", "");
                 // The list of leaves also has those of steps that are never reached.
                 // Nodes that do nothing, and sequences of one step, may come back as another number of them.
