@@ -79,19 +79,27 @@ class Camera:
                 self.renderer = mujoco.Renderer(mj, HEIGHT, WIDTH)
             except Exception as error:  # each library has exceptions of its own
                 raise NoGraphics("no picture can be rendered (%s); install EGL, or run with --oracle" % error) from None
+            # The first picture of a renderer differs a little from the same one later.
+            self._render(world.model.cameras.index(name))
         at = world.model.cameras.index(name)
-        mujoco.mj_camlight(mj, world.data)
-        self.renderer.update_scene(world.data, at)
-        colour = self.renderer.render().copy()
-        self.renderer.enable_depth_rendering()
-        self.renderer.update_scene(world.data, at)
-        depth = self.renderer.render().copy()
-        self.renderer.disable_depth_rendering()
+        colour, depth = self._render(at)
         depth[depth > FARTHEST] = 0.0
         focal = HEIGHT / 2.0 / np.tan(np.radians(mj.cam_fovy[at]) / 2.0)
         # The axes of images: x to the right, y down, z ahead.
         rotation = world.data.cam_xmat[at].reshape(3, 3) @ np.diag([1.0, -1.0, -1.0])
         return Picture(name, colour, depth, world.data.cam_xpos[at].copy(), rotation, float(focal))
+
+    def _render(self, at):
+        """Colours and depths in m of the camera with a number."""
+        renderer, data = self.renderer, self.world.data
+        mujoco.mj_camlight(self.world.model.mj, data)
+        renderer.update_scene(data, at)
+        colour = renderer.render().copy()
+        renderer.enable_depth_rendering()
+        renderer.update_scene(data, at)
+        depth = renderer.render().copy()
+        renderer.disable_depth_rendering()
+        return colour, depth
 
 
 def quaternion(rotation):
