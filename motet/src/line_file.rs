@@ -17,7 +17,8 @@ use std::path::Path;
 /// assert_eq!(lines, [b"first".to_vec()]);
 /// file.add("second")?;
 /// assert_eq!(std::fs::read_to_string(&path)?, "first\nsecond\n");
-/// # std::fs::remove_file(path)
+/// # std::fs::remove_file(path)?;
+/// # Ok::<(), std::io::Error>(())
 /// ```
 #[derive(Debug)]
 pub struct LineFile(File);
