@@ -1,6 +1,8 @@
 //! Memory and open files of one process that runs, checks and swaps for long, soon after the start, half way
 //! and at the end: rows for the table in `docs/benchmarks.md`. Linux only.
 
+#![allow(clippy::print_stdout, reason = "an example prints")]
+
 use motet::runtime::{Effect, Event, PreparedSwap, RunControl, StartState, Time, run};
 use motet::{Engine, Error, Graph, Motet, Observer, ProjectBuilder, RunEnd};
 

@@ -32,7 +32,7 @@ pub(super) fn fail(why: &str, span: Span) -> Step {
     end(End { kind: EndKind::Fail, result: None, why, span })
 }
 
-/// A `done`.
+/// A `done`, which ends the policy.
 pub(super) fn done(span: Span) -> Step {
     end(End { kind: EndKind::Done, result: None, why: None, span })
 }
