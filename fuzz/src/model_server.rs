@@ -4,7 +4,7 @@ use motet_client::{Client, ClientSettings, ServerUrl};
 use motet_compiler::Session;
 use motet_decode::export::Dialect;
 use motet_decode::{Grammar, Subset};
-use motet_planner::model::{Message, Model as _, News, Role};
+use motet_planner::model::{Message, Model as _, ReplyEvent, Role};
 use std::io::{Read as _, Write as _};
 use std::net::{TcpListener, TcpStream};
 use std::sync::{LazyLock, Mutex, PoisonError};
@@ -70,8 +70,8 @@ pub(crate) fn answer(bytes: &[u8]) {
     let Ok(mut reply) = client.ask(&[Message::new(Role::User, "go")], grammar) else { return };
     loop {
         match reply.next(Duration::from_secs(5)) {
-            News::End(_) | News::Failed(_) => return,
-            News::Nothing => panic!("it neither answers nor fails in 5 s"),
+            ReplyEvent::End(_) | ReplyEvent::Failed(_) => return,
+            ReplyEvent::Nothing => panic!("it neither answers nor fails in 5 s"),
             _ => {}
         }
     }
