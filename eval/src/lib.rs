@@ -153,19 +153,15 @@ impl KeptResults {
     /// Opens the file at its end, with the results that it has.
     fn open<R: DeserializeOwned>(self) -> Result<(LineFile, Vec<R>), String> {
         let path = self.path.display();
-        let (mut file, lines) = LineFile::continued(self.path).map_err(|error| format!("{path}: {error}"))?;
         let head = serde_json::json!({ "eval": self.words }).to_string();
-        let Some((first, rest)) = lines.split_first() else {
-            file.add(&head).map_err(|error| format!("{path}: {error}"))?;
-            return Ok((file, Vec::new()));
-        };
-        if *first != head.as_bytes() {
-            return Err(format!("{path}: not of `eval {}`: give another file", self.words));
-        }
+        let (file, lines) =
+            LineFile::headed(self.path, &head)
+                .map_err(|error| format!("{path}: {error}"))?
+                .ok_or_else(|| format!("{path}: not of `eval {}`: give another file", self.words))?;
         let read = |(index, line): (usize, &Vec<u8>)| {
             serde_json::from_slice(line).map_err(|error| format!("{path}:{}: {error}", index + 2))
         };
-        Ok((file, rest.iter().enumerate().map(read).collect::<Result<_, _>>()?))
+        Ok((file, lines.iter().enumerate().map(read).collect::<Result<_, _>>()?))
     }
 }
 

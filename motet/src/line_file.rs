@@ -56,6 +56,22 @@ impl LineFile {
         Ok((Self(file), lines))
     }
 
+    /// Opens a file as [`LineFile::continued`] does, with a first line that says of what it is. A new file
+    /// gets that line; `None` if the file has another one.
+    ///
+    /// # Errors
+    ///
+    /// The file cannot be opened, read, cut or written.
+    pub fn headed(path: &Path, head: &str) -> io::Result<Option<(Self, Vec<Vec<u8>>)>> {
+        let (mut file, mut lines) = Self::continued(path)?;
+        if lines.is_empty() {
+            file.add(head)?;
+        } else if lines.remove(0) != head.as_bytes() {
+            return Ok(None);
+        }
+        Ok(Some((file, lines)))
+    }
+
     /// Adds a line.
     ///
     /// # Errors

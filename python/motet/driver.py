@@ -346,10 +346,15 @@ class Driver:
         own = [_primitive(name, method) for name, method in methods.items() if inspect.iscoroutinefunction(method)]
         return {"only": sorted(name for name in own if name is not None)}
 
+    def _marked(self, mark: str, name: str) -> Callable[..., Any] | None:
+        """The method that a decorator has marked with a name."""
+        keys = (key for key in dir(type(self)) if getattr(getattr(type(self), key), mark, None) == name)
+        return next((getattr(self, key) for key in keys), None)
+
     def _performer(self, primitive: str) -> Callable[..., Any]:
-        for name in dir(type(self)):
-            if getattr(getattr(type(self), name), "_motet_performs", None) == primitive:
-                return getattr(self, name)  # type: ignore[no-any-return]
+        marked = self._marked("_motet_performs", primitive)
+        if marked is not None:
+            return marked
         name = python_name(primitive)
         method = getattr(self, name, None)
         return method if inspect.iscoroutinefunction(method) and _primitive(name, method) == primitive else self.perform
@@ -381,9 +386,9 @@ class Driver:
         return [name for name in names if self._observer(name) is None]
 
     def _observer(self, name: str) -> Callable[..., Any] | None:
-        for key in dir(type(self)):
-            if getattr(getattr(type(self), key), "_motet_observes", None) == name:
-                return getattr(self, key)  # type: ignore[no-any-return]
+        marked = self._marked("_motet_observes", name)
+        if marked is not None:
+            return marked
         method = getattr(self, python_name(name), None)
         is_own = callable(method) and not inspect.iscoroutinefunction(method) and not _is_own_name(python_name(name))
         return method if is_own else None

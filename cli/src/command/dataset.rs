@@ -238,18 +238,11 @@ impl KeptScenes {
         if path.exists() && !args.r#continue {
             return Err(other());
         }
-        let (mut file, lines) = LineFile::continued(&path).map_err(cannot)?;
         let shard = args.jobs.shard();
         let head = format!("{:08x}", crc32fast::hash(format!("{shard:?} {order:?}").as_bytes()));
-        let Some((first, rest)) = lines.split_first() else {
-            file.add(&head).map_err(cannot)?;
-            return Ok(Self { path, file, done: Vec::new() });
-        };
-        let done = rest.iter().map(|line| serde_json::from_slice(line)).collect::<Result<_, _>>();
-        match done {
-            Ok(done) if *first == head.as_bytes() => Ok(Self { path, file, done }),
-            _ => Err(other()),
-        }
+        let (file, lines) = LineFile::headed(&path, &head).map_err(cannot)?.ok_or_else(other)?;
+        let done = lines.iter().map(|line| serde_json::from_slice(line)).collect::<Result<_, _>>();
+        Ok(Self { file, done: done.map_err(|_| other())?, path })
     }
 
     fn add(&mut self, rows: &SceneRows) -> Result<(), CliError> {

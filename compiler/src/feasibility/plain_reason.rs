@@ -11,13 +11,7 @@ const HIGH_M: f64 = 1.2;
 
 /// Entity where a motion ends.
 pub(super) fn target(query: &MotionQuery) -> Option<&SmolStr> {
-    match query {
-        MotionQuery::GoTo(id) | MotionQuery::Look(id) => Some(id),
-        MotionQuery::Reach(id, _) | MotionQuery::ReachAt(id, _) => Some(id),
-        MotionQuery::Pull(id) | MotionQuery::Push(id) => Some(id),
-        MotionQuery::Put(_, to, _) | MotionQuery::Offer(_, to) => Some(to),
-        MotionQuery::StandAt(_) | MotionQuery::Posture(_) | MotionQuery::Other(_) => None,
-    }
+    query.entities().next_back()
 }
 
 /// A reason as a clause behind `I cannot pick up the coke:`, in which `it` is the target.

@@ -31,27 +31,16 @@ pub(super) fn parse_motions(
                 .to_owned(),
         })?;
         let entities = || scene.entities.keys().map(SmolStr::as_str);
+        query.entities().try_for_each(|id| require_known("entity", id, entities))?;
         match &query {
-            MotionQuery::Put(object, on, rules) => {
-                let named = [Some(object), Some(on), rules.near.as_ref(), rules.beside.as_ref()];
+            MotionQuery::Put(_, _, rules) => {
+                let named = [rules.near.as_ref(), rules.beside.as_ref()];
                 named.into_iter().flatten().try_for_each(|id| require_known("entity", id, entities))?;
-            }
-            MotionQuery::Offer(object, other) => {
-                require_known("entity", object, entities)?;
-                require_known("entity", other, entities)?;
-            }
-            MotionQuery::GoTo(id)
-            | MotionQuery::Reach(id, _)
-            | MotionQuery::ReachAt(id, _)
-            | MotionQuery::Look(id)
-            | MotionQuery::Pull(id)
-            | MotionQuery::Push(id) => {
-                require_known("entity", id, entities)?;
             }
             MotionQuery::Posture(name) => {
                 require_known("posture", name, || machine.card().postures.keys().map(SmolStr::as_str))?;
             }
-            MotionQuery::StandAt(_) | MotionQuery::Other(_) => {}
+            _ => {}
         }
         Ok(query)
     });

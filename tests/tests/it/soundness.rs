@@ -262,8 +262,8 @@ fn soundness_a_dropped_thing_can_be_picked_again() {
     assert!(!found.contains(&"M0501") && !found.contains(&"M0902"), "{found:?}");
 }
 
-/// What a step made may be undone by the time that a `wait` ends: the policy can do it again, and what else
-/// the step made is asked again.
+/// Effects of a step may be undone by the time that a `wait` ends: the policy can do the step again, and
+/// its other effects are asked again.
 #[test]
 fn soundness_what_was_waited_for_may_have_undone_a_step() {
     let recovers = "policy p { go(mug_1) pick(mug_1) go(counter) wait until not holding(mug_1) within 9 s \

@@ -82,7 +82,9 @@ fn imported_tree_is_exported_as_it_was() {
                 let again = match export(&again, &leaves) {
                     Ok(again) => again,
                     // A wait for what is never so leaves a `fail` in its place, which no tree can say there.
-                    Err(_) if is_cut => continue,
+                    Err(why) if is_cut && why.iter().all(|part| part.what.contains("`fail` in a `try`")) => {
+                        continue;
+                    }
                     Err(why) => panic!("case {case}: {why:?}: {tree}"),
                 };
                 let bare = |text: &str| text.replace("main_tree_to_execute=\"sketch\" ", "");

@@ -70,6 +70,28 @@ pub enum MotionQuery {
 }
 
 impl MotionQuery {
+    /// Entities that the motion is about, the one where it ends last.
+    ///
+    /// ```
+    /// use motet_geometry::planning::MotionQuery;
+    ///
+    /// let query = MotionQuery::from_call("put", ["mug_1", "shelf"], None).unwrap();
+    /// assert!(query.entities().eq(["mug_1", "shelf"]));
+    /// ```
+    pub fn entities(&self) -> impl DoubleEndedIterator<Item = &SmolStr> {
+        let (first, second) = match self {
+            Self::Put(object, other, _) | Self::Offer(object, other) => (Some(object), Some(other)),
+            Self::GoTo(id)
+            | Self::Reach(id, _)
+            | Self::ReachAt(id, _)
+            | Self::Look(id)
+            | Self::Pull(id)
+            | Self::Push(id) => (Some(id), None),
+            Self::StandAt(_) | Self::Posture(_) | Self::Other(_) => (None, None),
+        };
+        first.into_iter().chain(second)
+    }
+
     /// Query of a motion by its name in the language, the ids that it names, and the side of a grasp. `None`
     /// where no motion has this name, this number of ids and, if a side is given, a side.
     ///

@@ -42,7 +42,7 @@ const MOST_BREACHES: u32 = 20;
 /// A driver that ends, is silent, floods or says what is no message is spoken with no more, and
 /// [`DriverEvent::DriverLost`] is reported. The next start or safe stop starts or calls it again, a few
 /// times; these calls then wait for its greeting. What it used is safe once it has answered the safe stop.
-/// Where it is called no more, [`DriverEvent::DriverGone`] is the answer to a safe stop.
+/// Once it is called no more, [`DriverEvent::DriverGone`] is the answer to a safe stop.
 pub struct RemoteDriver {
     route: Route,
     patience: DriverTimeouts,

@@ -80,13 +80,13 @@ impl QueryContext<'_> {
             InfeasibleReason::Beside { .. } => in_the_middle(self, query, least),
             InfeasibleReason::NoPlace(_) => unruled(self, query, least),
             InfeasibleReason::OutOfReach { length: ReachLength::Sight, needs, reach } => {
-                targets(query).next_back().map(|id| {
+                query.entities().next_back().map(|id| {
                     let nearer = whole_centimetres(needs - reach);
                     format!("the robot has to be at least {nearer:.2} m nearer to `{id}`")
                 })
             }
             InfeasibleReason::OutOfReach { length: ReachLength::Distance, needs, reach } => {
-                targets(query).next_back().map(|id| {
+                query.entities().next_back().map(|id| {
                     format!(
                         "`{id}` would have to be at least {:.2} m nearer",
                         whole_centimetres(needs - reach)
@@ -147,7 +147,7 @@ fn cut_off(
                 let reach = context.scene.entities.get(to).map_or(0.0, |it| context.served_within(it));
                 format!("a place within {reach:.2} m of `{to}`")
             }
-            _ => match targets(query).next_back() {
+            _ => match query.entities().next_back() {
                 Some(id) => format!("a place from which `{id}` is in reach"),
                 None => "such a place".to_owned(),
             },
@@ -164,7 +164,7 @@ fn cut_off(
 fn shut_in(context: &QueryContext<'_>, query: &MotionQuery) -> Option<String> {
     let around = |id: &SmolStr| context.scene.entities.get(context.scene.entities.get(id)?.inside.as_ref()?);
     let is_shut = |it: &&Entity| it.travel.is_some() && !context.state.is_open(it);
-    let shut = targets(query).find_map(|id| {
+    let shut = query.entities().find_map(|id| {
         // An object that was taken out is no longer inside.
         let is_there = !context.state.holds(id) && !context.state.moved.contains_key(id);
         std::iter::successors(around(id).filter(|_| is_there), |it| around(&it.id)).take(8).find(is_shut)
@@ -180,7 +180,7 @@ fn cleared(
     budget: SearchBudget,
 ) -> Option<String> {
     let by = by.filter(|by| may_go(context, query, by));
-    let about = targets(query).next_back().and_then(|id| context.scene.entities.get(id));
+    let about = query.entities().next_back().and_then(|id| context.scene.entities.get(id));
     let place = about.and_then(|entity| context.state.pose(entity)).map(|pose| pose.translation.vector);
     let far = |entity: &Entity| Some((context.state.pose(entity)?.translation.vector - place?).norm());
     let near =
@@ -247,7 +247,7 @@ fn may_go(context: &QueryContext<'_>, query: &MotionQuery, id: &str) -> bool {
     // Never propose removing a person as an obstacle.
     let is_thing = |it: &Entity| !it.fixed && it.shape.is_some() && it.kind != kinds::PERSON;
     let is_free = context.scene.entities.get(id).is_some_and(is_thing);
-    let is_asked = targets(query).any(|about| goes_with(context.scene, about, id));
+    let is_asked = query.entities().any(|about| goes_with(context.scene, about, id));
     is_free && !is_asked && !context.state.holds(id)
 }
 
@@ -286,7 +286,7 @@ pub(crate) fn barrier(
             | MotionQuery::Push(_)
     );
     let Some(map) = context.map().filter(|_| asks) else { return vec![] };
-    let target = targets(query).next_back().and_then(|id| context.entity(id));
+    let target = query.entities().next_back().and_then(|id| context.entity(id));
     let Some((index, entity)) = target else { return vec![] };
     let Some(pose) = context.state.pose(entity) else { return vec![] };
     let start = plane(&context.state.robot);
@@ -318,21 +318,6 @@ pub(crate) fn barrier(
         }
         Some(_) | None => found,
     }
-}
-
-/// Targets of a query, the most relevant last.
-pub(crate) fn targets(query: &MotionQuery) -> impl DoubleEndedIterator<Item = &SmolStr> {
-    let (first, second) = match query {
-        MotionQuery::Put(object, other, _) | MotionQuery::Offer(object, other) => (Some(object), Some(other)),
-        MotionQuery::GoTo(id)
-        | MotionQuery::Reach(id, _)
-        | MotionQuery::ReachAt(id, _)
-        | MotionQuery::Look(id)
-        | MotionQuery::Pull(id)
-        | MotionQuery::Push(id) => (Some(id), None),
-        MotionQuery::StandAt(_) | MotionQuery::Posture(_) | MotionQuery::Other(_) => (None, None),
-    };
-    first.into_iter().chain(second)
 }
 
 /// List of names in backticks.
