@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from . import _motet
+from .driver import Driver
 from .errors import PolicyError
 from .inputs import PolicyLike, document
 from .project import _project
@@ -16,7 +17,6 @@ from .serving import ServedStream
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from .driver import Driver
     from .inputs import Inputs
 
 __all__ = ["BrokenLaw", "Conformance", "check_driver"]
@@ -69,13 +69,18 @@ def check_driver(
     of the policy: without one, a `say`. A call may take `patience` s; the default is 5 s, or its deadline on a driver that owns
     the clock. Raises `motet.PolicyError` if the check refuses the policy, and `motet.InputError` if the driver does not answer.
     """
+    if not callable(make):
+        raise TypeError(f"give the class of the driver or a function that makes one, not {make!r}: each scene needs a fresh driver")
     if policy is None:
         named = "" if inputs.get("robot") is not None else f" for {ROBOT}"
         policy = f"policy conformance{named} {_motet.harmless_steps()}"
     streams: list[ServedStream] = []
 
     def serve(file: int) -> None:
-        streams.append(ServedStream(make()))
+        driver = make()
+        if not isinstance(driver, Driver):
+            raise TypeError(f"`make` has to return a `motet.Driver`, not {driver!r}")
+        streams.append(ServedStream(driver))
         streams[-1].serve(file)
 
     native = _project(inputs)._native

@@ -8,6 +8,7 @@ import threading
 import warnings
 from collections import OrderedDict
 from collections.abc import Callable, Iterable
+from difflib import get_close_matches
 from math import inf
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Union
 
@@ -35,6 +36,7 @@ from .serving import ServedStream
 if TYPE_CHECKING:
     import os
     from collections.abc import Mapping, Sequence
+    from types import FrameType
 
     from typing_extensions import TypeAlias, Unpack
 
@@ -224,6 +226,12 @@ def _compiled(native: Any, report: Report) -> Any:
     return native
 
 
+def _keywords(frame: FrameType) -> tuple[str, ...]:
+    """Names of the parameters of the function that runs in a frame."""
+    code = frame.f_code
+    return code.co_varnames[: code.co_argcount + code.co_kwonlyargcount]
+
+
 _OPEN: OrderedDict[str, Project] = OrderedDict()
 _LOCK = threading.Lock()
 #: Number of projects that stay open.
@@ -232,6 +240,11 @@ MOST_OPEN = 8
 
 def _project(inputs: Inputs) -> Project:
     """A project with these inputs: one that is open, if its files are still the same."""
+    for name in inputs:
+        if name not in Inputs.__annotations__:
+            near = get_close_matches(name, [*Inputs.__annotations__, *_keywords(sys._getframe(1))], 1)
+            hint = f"; did you mean `{near[0]}`?" if near else f": it takes {', '.join(Inputs.__annotations__)}"
+            raise TypeError(f"{sys._getframe(1).f_code.co_name}() has no argument `{name}`{hint}")
     domains = inputs.get("domains", ())
     paths = [inputs.get(name) for name in ("robot", "scene", "state")]
     paths += [domains] if isinstance(domains, str) else list(domains)

@@ -7,7 +7,7 @@ use std::os::unix::net::UnixStream;
 use motet::conformance::{SAY, check, first_call};
 use motet::host::remote::protocol::Hello;
 use motet::host::remote::{DriverLog, DriverTimeouts, RemoteDriver};
-use motet::run::run_id;
+use motet::run::{run_id, state_facts};
 use motet::runtime::Time;
 use pyo3::prelude::*;
 
@@ -42,7 +42,8 @@ impl Project {
                 let (own, theirs) = UnixStream::pair().map_err(|error| error.to_string())?;
                 let file = theirs.into_raw_fd();
                 Python::attach(|py| serve.call1(py, (file,))).map_err(|error| error.to_string())?;
-                let hello = Hello::of(&prepared.graph, &run_id());
+                let state = state_facts(&prepared.opened);
+                let hello = Hello { state, ..Hello::of(&prepared.graph, &run_id()) };
                 RemoteDriver::over_stream(own, hello, DriverTimeouts::default(), Time::ZERO, log)
                     .map_err(|broken| broken.to_string())
             };

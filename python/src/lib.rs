@@ -11,22 +11,29 @@ mod graph;
 mod project;
 mod run;
 
-use pyo3::prelude::*;
-
 /// The native part of `motet`.
-#[pymodule]
-fn _motet(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
-    module.add_class::<decoder::Vocabulary>()?;
-    module.add_class::<decoder::Environment>()?;
-    module.add_class::<decoder::Decoder>()?;
-    module.add_class::<findings::Findings>()?;
-    module.add_class::<graph::Graph>()?;
-    module.add_class::<project::Project>()?;
-    module.add_class::<run::Run>()?;
-    module.add_function(wrap_pyfunction!(conformance::harmless_steps, module)?)?;
-    module.add_function(wrap_pyfunction!(command::command, module)?)?;
-    module.add_function(wrap_pyfunction!(feasible::feasible, module)?)?;
-    module.add_function(wrap_pyfunction!(run::replay, module)?)?;
-    module.add_function(wrap_pyfunction!(errors::explain, module)?)
+#[pyo3::pymodule]
+mod _motet {
+    #[pymodule_export]
+    use crate::command::command;
+    #[pymodule_export]
+    use crate::conformance::harmless_steps;
+    #[pymodule_export]
+    use crate::decoder::{Decoder, Environment, Vocabulary};
+    #[pymodule_export]
+    use crate::errors::explain;
+    #[pymodule_export]
+    use crate::feasible::feasible;
+    #[pymodule_export]
+    use crate::findings::Findings;
+    #[pymodule_export]
+    use crate::graph::Graph;
+    #[pymodule_export]
+    use crate::project::Project;
+    #[pymodule_export]
+    use crate::run::{Run, replay};
+
+    #[pymodule_export]
+    #[allow(non_upper_case_globals, reason = "the name is Python's")]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
 }

@@ -129,8 +129,10 @@ def test_robots_scenes_and_states_are_values_names_and_paths():
     ):
         with pytest.raises(motet.InputError):
             motet.check(policy, **wrong)
-    with pytest.raises(TypeError, match="bogus"):
+    with pytest.raises(TypeError, match=r"check\(\) has no argument `bogus`: it takes robot, scene"):
         motet.check(policy, bogus=1)
+    with pytest.raises(TypeError, match=r"simulate\(\) has no argument `profil`; did you mean `profile`\?"):
+        motet.simulate(policy, profil="ideal")
     held = {"holding(mug_1)": True, "free(hand)": False, "at(robot, shelf)": True}
     carry = "policy p for hsr { place(mug_1, shelf) done }"
     assert motet.check(carry, scene="kitchen").errors and "M0501" not in {

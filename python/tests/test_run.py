@@ -195,8 +195,22 @@ def test_an_interrupt_stops_a_run_and_the_robot():
 
 
 def test_the_laws_of_drivers_are_checked():
-    found = motet.check_driver(Robot)
+    with pytest.raises(TypeError, match="the class of the driver or a function that makes one"):
+        motet.check_driver(Robot())
+    with pytest.raises(motet.InputError, match="has to return a `motet.Driver`"):
+        motet.check_driver(object)
+    told = []
+
+    class Keeper(Robot):
+        takes_state = True
+
+        def begin_run(self, run):
+            super().begin_run(run)
+            told.append(json.dumps(run.get("state")))
+
+    found = motet.check_driver(Keeper, robot="hsr", scene="kitchen", state={"visited(shelf)": True})
     assert found.ok and len(found.scenes) > 5, str(found)
+    assert len(told) > 5 and all("visited" in state for state in told), told[:1]
 
     class Liar(Robot):
         async def stop(self, goal):

@@ -18,6 +18,7 @@ use motet_robots::urdf::Urdf;
 use motet_syntax::ast::{Item, PrimitiveDecl, TypeExpr};
 use motet_syntax::unit::Dimension;
 use motet_syntax::{FileId, Source, Sources};
+use smol_str::SmolStr;
 
 use crate::error::{CliError, Exit};
 use crate::flags::DiagnosticFormat;
@@ -149,7 +150,10 @@ fn body(robot: &Robot, report: &mut Report) {
     }
     let Clearance { base_m, arm_m } = robot.clearance;
     report.out.line(&format!("  keeps     {base_m} m from obstacles with the base, {arm_m} m with the arm"));
-    report.out.line(&format!("  observes  {}", robot.observes.join(", ")));
+    for (number, fact) in observations(robot).iter().enumerate() {
+        let label = if number == 0 { "observes" } else { "" };
+        report.out.line(&format!("  {label:8}  {fact}"));
+    }
     if !robot.initially.is_empty() {
         report.out.line(&format!("  at first  {}", robot.initially.join(", ")));
     }
@@ -157,16 +161,40 @@ fn body(robot: &Robot, report: &mut Report) {
 
 /// Declarations of primitives with their texts; a later one overrides an earlier one.
 pub(crate) fn signatures(robot: &Robot) -> Vec<(PrimitiveDecl, String)> {
+    let primitive = |(item, text)| match item {
+        Item::Primitive(decl) => Some((decl, text)),
+        _ => None,
+    };
+    declared(robot).into_iter().filter_map(primitive).collect()
+}
+
+/// Facts and measures that the robot observes, with their parameters.
+fn observations(robot: &Robot) -> Vec<String> {
+    let declared = declared(robot);
+    let shown = |observed: &SmolStr| {
+        let known = declared.iter().rev().find_map(|(item, text)| {
+            let name = match item {
+                Item::Fluent(decl) => &decl.name,
+                Item::Measure(decl) => &decl.name,
+                _ => return None,
+            };
+            text.split_once(' ').filter(|_| name.text == *observed).map(|(_, signature)| signature.to_owned())
+        });
+        known.unwrap_or_else(|| observed.to_string())
+    };
+    robot.observes.iter().map(shown).collect()
+}
+
+/// Declarations of the standard library and then of the robot, each with its text.
+fn declared(robot: &Robot) -> Vec<(Item, String)> {
     let own = ("primitives.motet", robot.declarations.as_str());
     let files = motet_stdlib::FILES.iter().copied().chain([own]);
     let mut found = Vec::new();
     for (name, text) in files.filter(|(_, text)| !text.trim().is_empty()) {
         let source = Source::new(name, text);
         for item in motet_syntax::read(&source, FileId(0)).file.items {
-            if let Item::Primitive(decl) = item {
-                let text = source.slice(decl.span).to_owned();
-                found.push((decl, text));
-            }
+            let text = source.slice(item.span()).to_owned();
+            found.push((item, text));
         }
     }
     found

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use motet::conformance::{self, DriverResult, DriverScene, SAY, first_call};
-use motet::run::run_id;
+use motet::run::{run_id, state_facts};
 use motet_host::remote::protocol::Hello;
 use motet_host::remote::{DriverLog, DriverTimeouts, RemoteDriver};
 use motet_project::files::Bytes;
@@ -42,7 +42,7 @@ pub(super) fn check(file: Option<&Path>, args: &RunArgs, report: &mut Report) ->
     };
     catch_interrupts()?;
     let mut connect = |log: Box<dyn DriverLog>| {
-        let hello = Hello::of(&graph, &run_id());
+        let hello = Hello { state: state_facts(&opened), ..Hello::of(&graph, &run_id()) };
         RemoteDriver::connect(address.clone(), hello, DriverTimeouts::default(), Time::ZERO, log)
             .map_err(|breakage| format!("{} ({})", escape(&breakage.to_string()), address))
     };
