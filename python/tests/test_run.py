@@ -210,7 +210,7 @@ def test_the_laws_of_drivers_are_checked():
 
     found = motet.check_driver(Keeper, robot="hsr", scene="kitchen", state={"visited(shelf)": True})
     assert found.ok and len(found.scenes) > 5, str(found)
-    assert len(told) > 5 and all("visited" in state for state in told), told[:1]
+    assert sum("visited" in state for state in told) >= len(found.scenes), told[:1]
 
     class Liar(Robot):
         async def stop(self, goal):
