@@ -183,10 +183,12 @@ impl Agenda {
         }
     }
 
-    /// Closes containers that the plan opened, unless a goal mentions them or would be lost.
+    /// Closes containers that the plan opened, unless a goal mentions them or would be lost. What is in the hand
+    /// at the end stays in it: to put it down and to find it again risks more than a container that is open.
     fn tidy(&mut self, prover: &mut Prover<'_>, mut kept: Vec<Condition>, index: usize) {
         let Some(open) = prover.library.lang_items.open else { return };
         search::replay(prover, &self.calls);
+        let in_hand = held(prover);
         let mut opened = Vec::new();
         prover.state.facts.entries(open, FactKey::ALL, |key, value| {
             if value.is_true() && value.yes.as_step().is_some() {
@@ -203,10 +205,31 @@ impl Agenda {
             let closed = Condition::Not(Box::new(is_open));
             let mut all = kept.clone();
             all.push(closed.clone());
-            if self.reach(prover, &Condition::All(all), index).is_ok() {
+            let before = self.calls.len();
+            if self.reach(prover, &Condition::All(all), index).is_err() {
+                continue;
+            }
+            if in_hand.is_some() && self.held_since(prover, before).any(|held| held != in_hand) {
+                self.calls.truncate(before);
+                self.of.truncate(before);
+            } else {
                 kept.push(closed);
             }
         }
+    }
+
+    /// Thing in the hand after each call from the one at an index on.
+    fn held_since<'s>(
+        &'s self,
+        prover: &'s mut Prover<'_>,
+        first: usize,
+    ) -> impl Iterator<Item = Option<SmolStr>> + 's {
+        let (before, after) = self.calls.split_at(first.min(self.calls.len()));
+        search::replay(prover, before);
+        after.iter().enumerate().map(move |(offset, call)| {
+            search::apply(prover, before.len() + offset, call);
+            held(prover)
+        })
     }
 
     fn write(&self, prover: &mut Prover<'_>) -> Result<Vec<PlannedStep>, NoPlan> {

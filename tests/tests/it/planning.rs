@@ -2,14 +2,19 @@
 use motet_compiler::plan::{Goal, NoPlan, Persistence};
 use motet_planner::builtin::{self, PlanError, Planned};
 use motet_requests::Aim;
+use motet_robots::scene::Scene;
 use motet_runtime::{Engine, RunEnd, StartState, Time};
 use motet_sim::{Sim, SimOptions};
 use motet_syntax::{Severity, Sources};
 use motet_tests::setup;
 
 fn plan(robot: &str, scene: &str, goals: &[&str]) -> Result<Planned, PlanError> {
-    let (robot, scene) = (setup::robot(robot), setup::scene(scene));
-    let (session, _) = setup::session(Some(&robot), Some(&scene), &mut Sources::default());
+    plan_in(robot, &setup::scene(scene), goals)
+}
+
+fn plan_in(robot: &str, scene: &Scene, goals: &[&str]) -> Result<Planned, PlanError> {
+    let robot = setup::robot(robot);
+    let (session, _) = setup::session(Some(&robot), Some(scene), &mut Sources::default());
     let aims: Vec<Aim> = goals
         .iter()
         .enumerate()
@@ -82,6 +87,19 @@ fn planner_what_a_plan_opens_it_closes() {
     let text = plan("hsr", "kitchen", &["in(sponge, drawer_1)"]).unwrap().text;
     let (opened, closed) = (text.find("open(drawer_1)").unwrap(), text.find("close(drawer_1)").unwrap());
     assert!(opened < closed, "{text}");
+}
+
+#[test]
+fn planner_keeps_in_the_hand_what_was_in_a_drawer() {
+    for robot in ["hsr", "anymal_z1"] {
+        let mut room = setup::scene("living_room");
+        let remote = room.entities.get_mut("remote_1").unwrap();
+        (remote.on, remote.pose, remote.inside) = (None, None, Some("drawer_1".into()));
+        remote.visible = Some(false);
+        let text = plan_in(robot, &room, &["holding(remote_1)"]).unwrap().text;
+        assert!(text.contains("open(drawer_1)") && text.trim_end().ends_with("pick(remote_1)\n}"), "{text}");
+        assert!(!text.contains("place("), "{text}");
+    }
 }
 
 #[test]
