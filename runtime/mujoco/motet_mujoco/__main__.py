@@ -6,6 +6,7 @@ import sys
 
 from .chance import profile
 from .driver import Driver, Options, stdio
+from .faults import answers, read
 from .model import ModelError, find_motet, load
 
 
@@ -37,6 +38,8 @@ def main(arguments=None):
                         help="how often and by how much things go wrong [default: ideal]")
     parser.add_argument("--answers", action="append", default=[], metavar="TEXT",
                         help="what people answer, in order; then `yes`")
+    parser.add_argument("--answers-file", metavar="FILE", help="a JSON list of answers; null refuses")
+    parser.add_argument("--faults", metavar="FILE", help="a JSON file of faults, as `motet schema faults` says")
     parser.add_argument("--walk", action="append", default=[], type=walk, metavar="ID:X,Y[@SECONDS[,SPEED]]",
                         help="a person walks to a place, at a time and with a speed in m/s")
     parser.add_argument("--says", action="append", default=[], type=says, metavar="ID:TEXT@SECONDS",
@@ -49,7 +52,8 @@ def main(arguments=None):
     args = parser.parse_args(arguments)
     try:
         command = find_motet(args.motet)
-        rates = profile(args.profile)
+        rates, script = profile(args.profile), read(args.faults) if args.faults else None
+        said = args.answers + (answers(args.answers_file) if args.answers_file else [])
         model = load(args.robot, args.scene, command)
         told = load(args.robot, args.told, command).scene if args.told else None
         unknown = [one[0] for one in args.walk + args.says if one[0] not in model.people]
@@ -58,7 +62,7 @@ def main(arguments=None):
     except ModelError as error:
         print("error: %s" % error, file=sys.stderr)
         return 2
-    driver = Driver(model, command, Options(rates, args.seed, args.answers), args.oracle == "robot", args.walk,
+    driver = Driver(model, command, Options(rates, args.seed, said, script), args.oracle == "robot", args.walk,
                     args.says, told, args.detector, args.oracle is not None)
     stdio(driver, args.speed)
     return 0

@@ -8,7 +8,7 @@ import tempfile
 import numpy as np
 
 from .model import ModelError, load
-from .planner import quoted
+from .planner import quoted, rpy
 from .sight import half_height
 
 # Distance in m of a thing from the rim of what it is put on, and of things from each other; height above its bottom.
@@ -31,9 +31,9 @@ def model_of(robot, scene, command):
             raise WrongStart(str(error)) from None
 
 
-def begun(scene, facts, planner):
+def begun(scene, facts, planner, grips=None):
     """A scene in which facts hold: (fluent, arguments, truth) each. Others than those of hand, doors and places are
-    left to the caller."""
+    left to the caller. `grips` are poses of held things in the frame of the tip, with a quaternion x, y, z, w."""
     scene = copy.deepcopy(scene)
     entities = {entity["id"]: entity for entity in scene["entities"]}
     for fluent, args, holds in facts:
@@ -44,6 +44,10 @@ def begun(scene, facts, planner):
             hold(scene, known[0], holds)
         elif fluent in ("on", "in") and None not in known and holds:
             lay(scene, known[0], fluent, known[1])
+    grip = (grips or {}).get(scene["robot"].get("holding"))
+    if grip is not None:
+        x, y, z, w = grip["quaternion"]
+        scene["robot"]["grip"] = {"xyz": grip["xyz"], "rpy": rpy((w, x, y, z))}
     # Where it stands depends on all of these.
     for fluent, args, holds in facts:
         if fluent == "at" and args[0] == "robot" and holds and planner is not None:

@@ -21,14 +21,14 @@ class Clearance:
         self.data = mujoco.MjData(self.model.mj)
         self.data.qpos[:] = world.data.qpos
         self.data.mocap_pos[:], self.data.mocap_quat[:] = world.data.mocap_pos, world.data.mocap_quat
-        held = world.held()
-        self.held = held[0] if held else None
+        held = beliefs.in_hand()
+        self.held = world.called.get(held[0], held[0]) if held else None
         beliefs.lay(self.data, self.held)
         self.start = self.data.qpos.copy()
         if self.held:
             # How the hand holds it.
             place, rotation = world.tip_frame()
-            position, quaternion = world.pose(self.held)
+            position, quaternion = beliefs.held_pose(held[0])
             self.grip = rotation.T @ (position - place), rotation.T @ matrix(quaternion)
         self.margins = self.margins_of({**KEEPS, **(keeps or {})})
 

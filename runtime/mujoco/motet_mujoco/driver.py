@@ -9,11 +9,12 @@ import time
 import numpy as np
 
 from .begin import WrongStart, begun, model_of
-from .beliefs import Beliefs
+from .beliefs import Beliefs, relative
 from .camera import NoGraphics
 from .chance import Chance, profile
 from .disorder import People, displace
 from .eyes import Eyes
+from .faults import TAKES, Faults
 from .observation import UNKNOWN, Observer, named, needs_eyes
 from .planner import Planner
 from .senses import Senses
@@ -29,17 +30,19 @@ MOVED_EVERY = 0.05
 SETTLES = 0.3
 # Seconds between two looks for what is watched.
 LOOK_EVERY = 1.0
+# Difference of a grip in m, or of its quaternion, that is not told.
+SAME_GRIP = 0.002
 # Primitives after which nothing new is in view.
 SPEECH = ("say", "ask", "choose")
 
 
 class Options:
-    """What goes wrong by itself, as a profile says, and what people answer."""
+    """What goes wrong by itself, as a profile says, what people answer, and a script of faults."""
 
-    def __init__(self, rates=None, seed=0, answers=()):
+    def __init__(self, rates=None, seed=0, answers=(), faults=None):
         self.rates = rates or profile("ideal")
         self.chance = Chance(seed)
-        self.answers = answers
+        self.answers, self.faults = [*answers, *(faults or {}).get("answers", [])], faults
 
     def reaction(self):
         """Seconds that a person takes."""
@@ -100,6 +103,8 @@ class Driver:
         planner = Planner(self.command, self.model.source) if self.command else None
         self.tasks = Tasks(self.world, self.observer, self.beliefs, planner, self.eyes, self.options)
         self.goals, self.watched, self.moved_at, self.looked_at = {}, [], -1.0, -1.0
+        self.gripped, self.faults = (None, None), Faults(self.options.faults)
+        self.tasks.answered = lambda: self.faults.answered(self.world.now - self.offset)
         self.hold_what_is_held()
 
     def hold_what_is_held(self):
@@ -142,10 +147,12 @@ class Driver:
         facts = [(fact["query"]["fact"], fact["holds"]) for fact in state if "fact" in fact["query"]]
         facts = [(fact["fluent"], [named(arg["is"]) for arg in fact["args"]], holds) for fact, holds in facts
                  if "any" not in fact["args"]]
+        fields = [(fact["query"]["field"], fact.get("value") or {}) for fact in state if "field" in fact["query"]]
+        grips = {field["entity"]: value["pose"] for field, value in fields if field["field"] == "grip"}
         planner = Planner(self.command, self.model.source) if self.command else None
         try:
-            scene = begun(self.model.scene, facts, planner)
-            self.room = None if self.room is None else begun(self.room, facts, None)
+            scene = begun(self.model.scene, facts, planner, grips)
+            self.room = None if self.room is None else begun(self.room, facts, None, grips)
             self.model = model_of(self.model.source, scene, self.command)
         except WrongStart as error:
             raise Error(INVALID_PARAMS, str(error)) from None
@@ -158,6 +165,8 @@ class Driver:
         self.given = [(fact["query"], fact["holds"]) for fact in state]
         for query, holds in self.given:
             fluent = query.get("fact", {}).get("fluent")
+            if fluent is None:
+                continue
             found = self.truth_of.answer(query)
             if fluent in ("holding", "open", "on", "in") and found != {"truth": holds}:
                 raise Error(INVALID_PARAMS, "the world cannot begin with `%s` %s" % (words(query), str(holds).lower()))
@@ -166,9 +175,12 @@ class Driver:
         number, command = params["goal"], params["command"]
         if number not in self.goals:
             self.options.chance.next()
+            fate = self.faults.of_call(command["primitive"])
             task = self.tasks.task(command)
-            self.goals[number] = Goal(command, task)
-            if task is None:
+            self.goals[number] = Goal(command, task if task is None else fated(task, fate, self.tasks))
+            if "refuses" in fate:
+                self.goals[number].state = {"refused": fate["refuses"]}
+            elif task is None:
                 kinds = self.kinds(command["primitive"])
                 self.goals[number].state = {"refused": {"kind": kinds[0] if kinds else "refused",
                                                         "text": "this robot cannot do that in physics"}}
@@ -318,11 +330,14 @@ class Driver:
                 outcome = {"success": done.value}
             except Failed as failure:
                 outcome = {"failure": self.failure(goal.command["primitive"], failure)}
+            except Scripted as failure:
+                outcome = {"failure": failure.report}
             for text in self.tasks.planned:
                 self.report("feedback", {"goal": number, "text": text[:1000], "own_motion": True})
             self.tasks.planned.clear()
             if outcome is not None:
                 self.end(number, outcome)
+        self.faults.tick(self.world, self.people, self.observer.own, self.options.chance, self.world.now - self.offset)
         for person, text in self.people.tick():
             self.report("heard", {"text": text, "from": person})
         self.world.step(self.tasks.goal, self.tasks.rate)
@@ -386,9 +401,22 @@ class Driver:
         self.goals[number].state = {"ended": outcome}
         if outcome == "interrupted":
             self.freeze()
+        self.tell_grip()
         self.report("ended", {"goal": number, "outcome": outcome})
         if outcome != "interrupted" and self.goals[number].command["primitive"] not in SPEECH:
             self.notice()
+
+    def tell_grip(self):
+        """Reports how the hand holds what it holds, if that is new: the pose of the thing in the frame of the tip."""
+        thing = next(iter(self.beliefs.in_hand()), None)
+        grip = None if thing is None else relative(self.world.tip_frame(), *self.beliefs.held_pose(thing))
+        last, self.gripped = self.gripped, (thing, grip)
+        if thing is None or last[0] == thing and np.abs(np.concatenate(grip) - np.concatenate(last[1])).max() < SAME_GRIP:
+            return
+        w, x, y, z = (float(part) for part in grip[1])
+        pose = {"xyz": [float(part) for part in grip[0]], "quaternion": [x, y, z, w]}
+        query = {"field": {"entity": thing, "field": "grip"}}
+        self.report("observed", {"query": query, "answer": {"value": {"pose": pose}}})
 
     def notice(self):
         """Reports what is in view and was not known, or not there."""
@@ -438,6 +466,34 @@ class Driver:
         for one in messages:
             self.say(one)
         return True
+
+
+class Scripted(Exception):
+    """A failure that a script of faults asks for."""
+
+    def __init__(self, report):
+        super().__init__(str(report))
+        self.report = report
+
+
+def fated(task, fate, tasks):
+    """A task with what a script of faults does to it: it fails after its time without a change, hangs, or is slower."""
+    if "fails" in fate or "hangs" in fate:
+        task.close()
+        yield from tasks.pause(TAKES * fate["slower"])
+        while "hangs" in fate:
+            yield
+        raise Scripted(fate["fails"])
+    done = 0.0
+    while True:
+        done += 1.0 if fate["slower"] <= 1.0 else 1.0 / fate["slower"]
+        if done >= 1.0 - 1e-9:
+            done -= 1.0
+            try:
+                next(task)
+            except StopIteration as end:
+                return end.value
+        yield
 
 
 def words(query):

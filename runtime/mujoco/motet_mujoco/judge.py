@@ -11,7 +11,9 @@ where it was seen and the hand not quite where it was sent.
 """
 
 import argparse
+import itertools
 import json
+import multiprocessing
 import os
 import sys
 import tempfile
@@ -301,6 +303,46 @@ def disturbed(xml, query, rates, chance):
     return world, float(np.linalg.norm(off))
 
 
+def rows(command, args):
+    """What is to be carried out, in order: the parameters of `trial`."""
+    kinds, rates = set(args.kind or AIMS), profile(args.profile)
+    for scene in args.scene or SCENES.get(args.robot, DEFAULT):
+        for xml, query, witness in trials(command, args.robot, scene, kinds):
+            for seed in range(args.seeds):
+                yield scene, xml, query, witness, rates, seed
+
+
+def carried(jobs, items):
+    """Results of `trial` in the order of its parameters, of which so many are carried out at a time."""
+    if jobs == 1:
+        yield from (trial(*one) for one in items)
+        return
+    # Nothing that the parent holds, such as a picture's context, is safe in a copy of it.
+    with multiprocessing.get_context("spawn").Pool(jobs) as pool:
+        yield from pool.imap(trial_of, items)
+
+
+def trial_of(one):
+    """A trial by its parameters."""
+    return trial(*one)
+
+
+def at_least_one(text):
+    """A number of processes."""
+    number = int(text)
+    if not 1 <= number <= 1024:
+        raise argparse.ArgumentTypeError("from 1 to 1024")
+    return number
+
+
+def shard(text):
+    """A share K/N of the trials: the number, and how many there are."""
+    number, _, of = text.partition("/")
+    if not (number.isdecimal() and of.isdecimal() and int(number) < int(of)):
+        raise argparse.ArgumentTypeError("write a number and how many there are, from 0/4 to 3/4 for four shards")
+    return int(number), int(of)
+
+
 def trial(scene, xml, query, witness, rates=None, seed=0):
     """Carries out one verdict in a fresh world. Answers the trial, and the seconds simulated and of the processor."""
     world, off = disturbed(xml, query, rates or profile("ideal"), Chance(seed))
@@ -319,20 +361,18 @@ def main(arguments=None):
     parser.add_argument("--profile", default="ideal", metavar="ideal|typical|harsh|FILE",
                         help="errors and friction of the trials [default: ideal]")
     parser.add_argument("--seeds", type=int, default=1, help="trials of each verdict, with seeds from 0 on [default: 1]")
+    parser.add_argument("-j", "--jobs", type=at_least_one, default=1,
+                        help="trials at a time; the figures of times are of one [default: 1]")
+    parser.add_argument("--shard", type=shard, default=(0, 1), metavar="K/N", help="each N-th trial from the K-th on")
     parser.add_argument("--format", choices=["human", "json"], default="human")
     args = parser.parse_args(arguments)
-    scenes = args.scene or SCENES.get(args.robot, DEFAULT)
-    kinds = set(args.kind or ["reach", "go_to", "pull", "push", "put"])
     simulated, taken, done = 0.0, 0.0, []
     try:
-        command, rates = find_motet(args.motet), profile(args.profile)
-        for scene in scenes:
-            for xml, query, witness in trials(command, args.robot, scene, kinds):
-                for seed in range(args.seeds):
-                    one, seconds, processor = trial(scene, xml, query, witness, rates, seed)
-                    simulated, taken = simulated + seconds, taken + processor
-                    done.append(one)
-                    told(one, args.format)
+        items = itertools.islice(rows(find_motet(args.motet), args), args.shard[0], None, args.shard[1])
+        for one, seconds, processor in carried(args.jobs, items):
+            simulated, taken = simulated + seconds, taken + processor
+            done.append(one)
+            told(one, args.format)
     except ModelError as error:
         print("error: %s" % error, file=sys.stderr)
         return 2

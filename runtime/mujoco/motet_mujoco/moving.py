@@ -38,6 +38,8 @@ class Mover:
 
     def __init__(self, world, observer, beliefs, planner, options):
         self.world, self.observer, self.beliefs = world, observer, beliefs
+        # What the robot feels and knows: by its sensors, or with `--oracle` by the truth.
+        self.room = observer.room
         self.planned = []  # motions of its own that nobody was told of
         self.planner, self.options = planner, options
         self.goal = world.target.copy()  # targets that the tasks aim at
@@ -61,7 +63,7 @@ class Mover:
         if not mask.any():
             return
         path = path.to(points)
-        if world.held():
+        if self.room.held():
             path = Path([self.gentle(stroke) for stroke in path.strokes])
         if len(path.strokes) > 1:
             path = path.blended(model, Clearance(world, self.beliefs, keeps).is_free)
@@ -74,7 +76,7 @@ class Mover:
             off[list(model.grips)] = 0.0
             behind = behind + 1 if off[mask].max() > BLOCKED else 0
             if behind > 25:
-                met = world.bumped() or what or "something"
+                met = self.room.bumped() or what or "something"
                 # What pushes on would push for ever.
                 self.goal[mask] = world.data.qpos[model.control_qpos][mask]
                 raise Failed("blocked", "%s is in the way" % met)
@@ -206,7 +208,7 @@ class Mover:
         self.lost = 0
 
         def watch():
-            self.lost = 0 if self.world.holds(thing) else self.lost + 1
+            self.lost = 0 if self.room.holds(thing) else self.lost + 1
             if self.lost > 12:
                 self.beliefs.forget(thing)
                 raise Failed("slipped", "%s %s" % (thing, how))

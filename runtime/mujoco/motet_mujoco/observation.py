@@ -20,6 +20,7 @@ class Own:
         self.standing, self.posture = True, "home"
         self.driven, self.last, self.unmoved = 0.0, world.base(), True
         self.start = world.base()[:2].copy()
+        self.charge = None  # of the battery, where it is given
 
     def tick(self, world):
         """Counts the way that was driven."""
@@ -209,6 +210,8 @@ class Observer:
             one = named(args[0])
             gap = self.gap(one) if one in self.entities else None
             return None if gap is None else max(gap - self.radius, 0.0)
+        if measure == "battery" and self.own.charge is not None:
+            return self.own.charge
         if measure == "battery":
             return max(0.0, 1.0 - 1e-4 * world.now - 1e-3 * self.own.driven)
         if measure == "force":

@@ -12,6 +12,9 @@ from .sight import is_visible
 EMPTY = 12
 # Height in m by which the hand has risen since a grasp once it bears the thing alone.
 RAISED = 0.01
+# Distance in m of a bump from where something is believed to be up to which that is what was met, and from the middle
+# of what the hand holds up to which that touches the arm.
+TOUCHES, ABOUT_HELD = 0.1, 0.15
 
 
 class Senses:
@@ -39,6 +42,30 @@ class Senses:
         """True if the hand holds a thing higher than where it grasped it."""
         since = self.beliefs.grasped_at
         return self.holds(thing) and (since is None or self.world.tip()[0][2] - since >= RAISED)
+
+    def grasps(self, _thing):
+        """True if the hand, told to close, has closed around something: its fingers meet it before their end."""
+        return self.world.is_gripping()
+
+    def is_touched(self, _thing):
+        """True if something presses on a finger."""
+        return self.world.feels_touch()
+
+    def bumped(self, allowed=()):
+        """What is believed to be where something presses on the robot, apart from those allowed; None if nothing
+        does."""
+        for point in self.world.bumps():
+            held = [one for one in self.held() if one in allowed]
+            if any(np.linalg.norm(self.beliefs.held_pose(one)[0] - point) < ABOUT_HELD for one in held):
+                continue
+            for person in self.world.model.people:
+                self.beliefs.scan(person)
+            gaps = {one: self.beliefs.gap(one, point) for one in self.beliefs.entities}
+            near = {one: gap for one, gap in gaps.items() if gap is not None and gap < TOUCHES}
+            met = min(near, key=near.get, default="something")
+            if met not in allowed:
+                return met
+        return None
 
     def pose(self, entity):
         """Position and rotation of an entity; None if it is not known, or the entity has no body."""

@@ -10,9 +10,12 @@ from .motion import near_turn, phases
 from .moving import THINKS, Failed, Motion, Mover
 from .observation import AT_PLACE
 from .planner import quoted
+from .world import OPENED
 
 # Distance in m from a thing up to which a given point counts as being at it.
 NEAR_GRASP = 0.05
+# Distance in m that a handle moves in the hand at least where its drawer or door is not locked.
+GIVES = 0.04
 # Distances in m, beyond that of a drive to a person, from which the hand may hold something out.
 OFFERS = (0.0, 0.15, -0.1)
 
@@ -24,6 +27,7 @@ class Tasks(Mover):
         super().__init__(world, observer, beliefs, planner, options)
         self.eyes, self.said = eyes, []
         self.answers = list(options.answers)
+        self.answered = lambda: None  # called when a person has answered
 
     def names(self):
         """Names of the primitives."""
@@ -40,12 +44,12 @@ class Tasks(Mover):
 
     def do_go(self, args, motion):
         to = entity(args["to"])
-        path, held = self.motion(motion, "go_to(%s)" % quoted(to)), self.world.held()
+        path, held = self.motion(motion, "go_to(%s)" % quoted(to)), self.room.held()
         if motion.witness is None and held and to in self.world.model.people:
             path = yield from self.offering(path, held[0], to, motion)
         yield from self.drive(path, to)
         self.observer.own.visited.add(to)
-        self.observer.own.visited.update(self.world.bearers(to) if to in self.world.model.free else [])
+        self.observer.own.visited.update(self.room.supports(to) if to in self.beliefs.things() else [])
 
     def offering(self, path, thing, person, motion):
         """The path to a place from which the hand can hold a thing out to a person: its own, or else one around the
@@ -74,13 +78,13 @@ class Tasks(Mover):
         return path
 
     def drive(self, path, to):
-        held = self.world.held()
+        held = self.room.held()
         if self.world.model.drives:
             last = path.strokes[-1].points[-1] = path.strokes[-1].points[-1].copy()
             last[:2] += self.options.chance.error(self.options.rates["base"]["error_m"], "base")
 
         def watch():
-            met = self.world.bumped(held)
+            met = self.room.bumped(held)
             if met is not None and met != to:
                 raise Failed("blocked", "%s is in the way" % met)
 
@@ -122,7 +126,7 @@ class Tasks(Mover):
         begun = self.goal.copy()
         path = yield from self.grasp(thing, query, motion)
         yield from self.straight(np.array([0.0, 0.0, 0.06]))
-        if not self.world.holds(thing):
+        if not self.room.holds(thing):
             self.beliefs.forget(thing)
             raise Failed("slipped", "%s slipped out of the hand" % thing)
         yield from self.way_back(path, begun, motion, thing)
@@ -175,9 +179,9 @@ class Tasks(Mover):
         path = path.to(self.aside(points, np.array([dx, dy, 0.0])) or points)
         yield from self.follow(path, thing)
         yield from self.grip(True, 0.8)
-        if not self.world.holds(thing):
+        if not self.room.grasps(thing):
             # A hand feels if it closes around nothing.
-            kind, text = ("slipped", "%s is not between the fingers") if self.world.is_touched(thing) else (
+            kind, text = ("slipped", "%s is not between the fingers") if self.room.is_touched(thing) else (
                 "not_found", "%s is not where it was expected")
             self.beliefs.forget(thing)
             yield from self.grip(False, 0.6)
@@ -187,11 +191,11 @@ class Tasks(Mover):
         return path
 
     def do_lift(self, args, motion):
-        held = self.world.held()
+        held = self.room.held()
         by = number(args["by"])
         before = self.world.tip()[0][2]
         yield from self.straight(np.array([0.0, 0.0, by]))
-        if held and not self.world.holds(held[0]):
+        if held and not self.room.holds(held[0]):
             self.beliefs.forget(held[0])
             raise Failed("slipped", "%s slipped out of the hand" % held[0])
         if self.world.tip()[0][2] - before < 0.5 * by:
@@ -220,7 +224,7 @@ class Tasks(Mover):
 
     def put(self, thing, on, query, motion):
         world, begun = self.world, self.goal.copy()
-        if not world.holds(thing):
+        if not self.room.holds(thing):
             raise Failed("slipped", "the hand does not hold %s" % thing)
         path = self.motion(motion, query)
         approach = phases(path.points, world.model.grips, "draw")[0][1]
@@ -234,18 +238,27 @@ class Tasks(Mover):
         yield from self.straight(-0.08 * world.tip()[1][:, 2])
         yield from self.way_back(path, begun, motion, None)
         self.observer.own.moved.add(thing)
-        if not world.is_in(thing, on) and not world.is_on(thing, on):
-            self.beliefs.forget(thing)
-            raise Failed("slipped", "%s does not rest on %s" % (thing, on))
         known = self.beliefs.entities[thing]
         if on not in (known.get("on"), known.get("in")):
             self.beliefs.rests(thing, "in" if self.beliefs.entities[on]["kind"] == "Container" else "on", on)
+        # Where the camera does not show that it is elsewhere, it is where the hand let it go.
+        self.glance()
+        if not self.room.is_in(thing, on) and not self.room.is_on(thing, on):
+            self.beliefs.forget(thing)
+            raise Failed("slipped", "%s does not rest on %s" % (thing, on))
+
+    def glance(self):
+        """Looks at what is in view, if the robot can see."""
+        try:
+            self.eyes.refresh()
+        except NoGraphics:
+            return
 
     def do_handover(self, args, motion):
         world = self.world
         thing, person = entity(args["object"]), entity(args["to"])
         begun = self.goal.copy()
-        if not world.holds(thing):
+        if not self.room.holds(thing):
             raise Failed("slipped", "the hand does not hold %s" % thing)
         path = self.motion(motion, "offer(%s, %s)" % (quoted(thing), quoted(person)))
         yield from self.follow(path, person, self.keeps(thing))
@@ -276,7 +289,7 @@ class Tasks(Mover):
         if self.observer.room.is_open(what) is opens:
             return
         path = self.motion(motion, "%s(%s)" % (query, quoted(what)))
-        parts = phases(path.points, world.model.grips)
+        parts, drawn = phases(path.points, world.model.grips), None
         for deed, part in parts:
             if deed == "grip":
                 yield from self.grip(True, 1.0)
@@ -284,19 +297,41 @@ class Tasks(Mover):
                 yield from self.grip(False, 0.6)
             else:
                 share = motion.speed * (0.5 if deed == "draw" else 1.0)
-                yield from self.follow(self.path(part, share), None if deed == "draw" else what)
+                if deed == "draw":
+                    drawn, watch = self.drawing(part)
+                    yield from self.follow(self.path(part, share), watch=watch)
+                    continue
+                yield from self.follow(self.path(part, share), what)
         if not any(deed == "release" for deed, _ in parts) and any(deed == "grip" for deed, _ in parts):
             yield from self.grip(False, 0.6)
             yield from self.straight(-0.08 * world.tip()[1][:, 2])
+        far, whole = drawn or (1.0, 1.0)
+        is_open = world.is_open(what) if self.beliefs.oracle else opens if far >= OPENED * whole else None
         # After a motion that failed, only a look tells how far it came.
-        is_open = world.is_open(what)
-        self.beliefs.opened(what, is_open if is_open is opens or self.beliefs.oracle else None)
+        self.beliefs.opened(what, is_open)
         yield from self.home_again(begun, motion)
-        if is_open is not opens:
-            if world.is_locked(what):
-                self.beliefs.locked(what)
-                raise Failed("blocked", "%s is locked" % what)
-            raise Failed("slipped" if opens else "blocked", "%s is %s" % (what, "open" if is_open else "closed"))
+        self.glance()
+        is_open = self.room.is_open(what)
+        if is_open is opens:
+            return
+        if self.beliefs.oracle and world.is_locked(what) or not self.beliefs.oracle and opens and far < GIVES:
+            self.beliefs.locked(what)
+            raise Failed("blocked", "%s does not give way: it is locked" % what)
+        if is_open is None:
+            raise Failed("slipped" if opens else "blocked", "the hand lost the handle of %s" % what)
+        raise Failed("slipped" if opens else "blocked", "%s is %s" % (what, "open" if is_open else "closed"))
+
+    def drawing(self, part):
+        """How far the hand has drawn a handle, in m, and how far it is to, as a list that fills; and a check that fills
+        it. The fingers feel the handle as long as they do not close on nothing."""
+        begin, end = self.world.tip()[0], self.frame(part[-1])[0]
+        drawn = [0.0, float(np.linalg.norm(end - self.frame(part[0])[0]))]
+
+        def watch():
+            if self.world.is_gripping():
+                drawn[0] = max(drawn[0], float(np.linalg.norm(self.world.tip()[0] - begin)))
+
+        return drawn, watch
 
     def do_push(self, args, motion):
         what, begun = entity(args["what"]), self.goal.copy()
@@ -410,17 +445,26 @@ class Tasks(Mover):
     def do_ask(self, args, _motion):
         self.said.append(args["question"]["text"])
         yield from self.pause(1.0 + self.options.reaction())
-        if self.options.refuses():
+        answer = self.answer("yes")
+        if answer is None:
             raise Failed("refused", "nobody answers")
-        return {"text": self.answers.pop(0) if self.answers else "yes"}
+        return {"text": answer}
+
+    def answer(self, usual):
+        """The next answer of a person; None where they refuse."""
+        answer = self.answers.pop(0) if self.answers else usual
+        if answer is None or self.options.refuses():
+            return None
+        self.answered()
+        return answer
 
     def do_choose(self, args, _motion):
         self.said.append(args["question"]["text"])
         yield from self.pause(1.0 + self.options.reaction())
         listed = args["among"]["list"]
-        if not listed or self.options.refuses():
+        answer = self.answer("") if listed else None
+        if answer is None:
             raise Failed("refused", "nobody chooses")
-        answer = self.answers.pop(0) if self.answers else None
         fitting = self.beliefs.matches(answer) if answer else []
         return next((one for one in listed if entity(one) in fitting), listed[0])
 

@@ -252,6 +252,25 @@ class World:
         """True if a part of the hand touches a thing."""
         return any(geom in self.model.hand_geoms and force > 0.0 for geom, _, force in self.touching(thing))
 
+    def grasps(self, thing):
+        """True if the hand has closed around a thing."""
+        return self.holds(thing)
+
+    def feels_touch(self):
+        """True if something presses on a finger: by force sensors, which do not say what it is."""
+        hand = self.model.hand_geoms
+        return any((one in hand) != (other in hand) and force > 0.0 for one, other, _, force in self.contacts())
+
+    def bumps(self):
+        """Places where something presses on a part of the robot other than the hand: by sensors in its skin, which do
+        not say what it is."""
+        data, owner, hand, force = self.data, self.model.geom_owner, self.model.hand_geoms, np.zeros(6)
+        for at in range(data.ncon):
+            own = [owner[geom] == "robot" and geom not in hand for geom in data.contact[at].geom]
+            mujoco.mj_contactForce(self.model.mj, data, at, force)
+            if any(own) and not all(own) and force[0] > PRESSES:
+                yield data.contact[at].pos.copy()
+
     def bearers(self, thing):
         """What a thing rests on, apart from the hand: ids, or `floor`."""
         model, found, thing = self.model, [], self.called.get(thing, thing)
@@ -312,6 +331,13 @@ class World:
         """True if a lock keeps a drawer or a door where it is."""
         at = mujoco.mj_name2id(self.model.mj, mujoco.mjtObj.mjOBJ_EQUALITY, name(container) + "/lock")
         return False if at < 0 else bool(self.data.eq_active[at])
+
+    def lock(self, container, is_locked):
+        """Lets a lock keep a drawer or a door where it is, or lets it go."""
+        at = mujoco.mj_name2id(self.model.mj, mujoco.mjtObj.mjOBJ_EQUALITY, name(container) + "/lock")
+        if at >= 0:
+            self.model.mj.eq_data[at, 0] = self.data.qpos[self.model.doors[container][0]]
+            self.data.eq_active[at] = is_locked
 
     def is_given(self, thing, person):
         """True if a person has a thing in the hand."""

@@ -272,6 +272,73 @@ def test_what_the_robot_believes_is_not_read_off_the_world(behind, monkeypatch):
     assert np.allclose(behind.beliefs.now()["robot"]["grip"]["xyz"], scene["robot"]["grip"]["xyz"])
 
 
+def test_primitives_succeed_by_what_the_robot_feels_and_sees(behind, monkeypatch):
+    """No primitive is decided by the truth of the simulator, which a robot does not have."""
+
+    def truth(*_):
+        raise AssertionError("the robot cannot know this")
+
+    for name in ("held", "holds", "is_touched", "bumped", "is_open", "is_locked", "is_on", "is_in", "bearers",
+                 "supports", "opening", "is_lifted", "is_visible"):
+        monkeypatch.setattr(behind.world, name, truth)
+    place = behind.world.pose("mug_1")[0]
+    carry_out_by(behind, 1, "go", to="kitchen_table")
+    carry_out_by(behind, 2, "pick", object="mug_1")
+    carry_out_by(behind, 3, "place", object="mug_1", on="kitchen_table")
+    assert np.linalg.norm(behind.world.pose("mug_1")[0][2] - place[2]) < 0.01
+    carry_out_by(behind, 4, "go", to="drawer_1")
+    carry_out_by(behind, 5, "open", what="drawer_1")
+    carry_out_by(behind, 6, "close", what="drawer_1")
+    monkeypatch.undo()
+    assert behind.world.is_on("mug_1", "kitchen_table") and behind.world.is_open("drawer_1") is False
+
+
+def test_a_thing_that_falls_as_it_is_placed_is_seen_to_have(behind):
+    carry_out_by(behind, 1, "go", to="kitchen_table")
+    carry_out_by(behind, 2, "pick", object="mug_1")
+    start(behind, 3, "place", object="mug_1", on="kitchen_table")
+    while behind.beliefs.hand == "mug_1":
+        behind.tick()
+    for _ in range(100):
+        behind.tick()
+    behind.world.place("mug_1", np.array([0.0, -1.0, 0.06]))
+    while behind.goals[3].state == "running":
+        behind.tick()
+    failure = behind.goals[3].state["ended"]["failure"]
+    assert failure["kind"] == "slipped" and "does not rest on" in failure["text"]
+
+
+@pytest.mark.parametrize("flags", [(), ("--oracle",)])
+def test_a_lock_is_felt_as_a_handle_that_does_not_give_way(drive, room, flags):
+    host = drive("hsr", room(drawer_1={"locked": True}), "--told", room(), *flags)
+    host.carry_out("go", to=entity("drawer_1"))
+    failure = host.carry_out("open", what=entity("drawer_1"))["failure"]
+    assert failure == {"kind": "blocked", "text": "drawer_1 does not give way: it is locked"}
+    assert host.holds("locked", "drawer_1") is True and host.holds("open", "drawer_1") is not True
+
+
+def test_a_grip_is_told_and_a_run_begins_with_it(drive):
+    host = drive("hsr", "kitchen")
+    query = {"field": {"entity": "mug_1", "field": "grip"}}
+    held = fact("holding", "mug_1")
+    host.call("hello", protocol=2, run="first", resumed=False, robot="hsr", policy="test", primitives=[], state=[held])
+    host.carry_out("start_pose")
+
+    def told():
+        answers = [one["params"]["answer"] for one in host.reports
+                   if one["method"] == "observed" and one["params"]["query"] == query]
+        return answers[-1]["value"]["pose"]
+
+    usual = told()
+    # Three centimetres higher in the hand.
+    grip = {**usual, "xyz": [usual["xyz"][0] + 0.03, *usual["xyz"][1:]]}
+    given = {"query": query, "holds": True, "value": {"pose": grip}}
+    host.call("hello", protocol=2, run="second", resumed=False, robot="hsr", policy="test", primitives=[],
+              state=[held, given])
+    host.carry_out("start_pose")
+    assert np.allclose(told()["xyz"], grip["xyz"], atol=0.012) and not np.allclose(told()["xyz"], usual["xyz"], atol=0.012)
+
+
 def test_a_thing_that_the_host_names_appears_under_its_id(motet, room):
     model = load("hsr", "kitchen", motet)
     told = {**model.scene, "entities": [one for one in model.scene["entities"] if one["id"] != "mug_1"]}

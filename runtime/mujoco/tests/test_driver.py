@@ -108,7 +108,8 @@ def test_a_thing_that_is_lost_is_told(drive):
     assert host.call("watch", query=query)["answer"] == {"truth": False}
     host.carry_out("go", to=entity("kitchen_table"))
     assert host.carry_out("pick", object=entity("mug_1")) == {"success": None}
-    told = [one["params"]["answer"] for one in host.reports if one["method"] == "observed"]
+    told = [one["params"]["answer"] for one in host.reports
+            if one["method"] == "observed" and one["params"]["query"] == query]
     assert told and told[-1] == {"truth": True}
 
 

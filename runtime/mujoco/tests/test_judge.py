@@ -68,3 +68,17 @@ def test_what_was_held_is_carried(motet):
     assert calibrate.carried(world, "apple")
     judge.open_hand(world)
     assert not calibrate.carried(world, "apple")
+
+
+def test_trials_are_the_same_whatever_the_number_of_processes_and_shards(motet, capsys):
+    def trials(*more):
+        flags = ["--robot", "panda", "--kind", "reach", "--seeds", "2", "--profile", "typical", "--format", "json"]
+        assert judge.main([*flags, "--motet", motet, *more]) == 0
+        return [json.loads(line) for line in capsys.readouterr().out.splitlines()][:-1]
+
+    all_of_them = trials()
+    assert trials("-j", "3") == all_of_them
+    assert [trials("--shard", "%d/2" % at) for at in (0, 1)] == [all_of_them[0::2], all_of_them[1::2]]
+    for wrong in (["-j", "0"], ["--shard", "2/2"], ["--shard", "a"]):
+        with pytest.raises(SystemExit):
+            judge.main(["--robot", "panda", *wrong])
