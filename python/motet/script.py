@@ -372,8 +372,16 @@ class Robot:
 
     # Tests.
 
-    async def test(self, condition: Any) -> bool:
-        """Answers whether a condition is known to hold, after an observation where it is unknown."""
+    async def test(self, condition: Any, looks: bool = False) -> bool:
+        """Answers whether a condition is known to hold, after an observation where it is unknown.
+
+        With `looks` it is observed whatever is believed: what the hand held may have dropped.
+        """
+        if looks:
+            missing = list[Any]()
+            replace(self._look(self._now(), missing), seen=self.beliefs.observations).truth(condition)
+            if missing:
+                await self._observe(missing)
         return await self._settled(lambda look: look.truth(condition)) is True
 
     async def value(self, term: Any, kind: str) -> Any:

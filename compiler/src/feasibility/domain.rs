@@ -327,6 +327,10 @@ impl<'a> Domain<'a> for MotionChecker<'a> {
             it.is_certain &= is_so;
             is_so || may_be_unknown
         });
+        if self.proof.drops.contains(&(id, truth)) {
+            let why = || SmolStr::new_static("what the hand held may have dropped");
+            worlds.lost = worlds.lost.or_else(|| Some(why()));
+        }
         self.worlds = worlds;
         self.is_live()
     }

@@ -50,6 +50,10 @@ pub(crate) fn lower(
     let given: Vec<_> = initial.collect();
     let goal = lowering.goal();
     let sentences = lowering.sentences();
+    let steps = proof.drops.iter().filter_map(|(step, _)| *lowering.ids.get(step.index())?);
+    let mut hands: Vec<_> = steps.collect();
+    hands.sort_unstable();
+    hands.dedup();
     let Lowering { nodes, regions, tables, .. } = lowering;
     // In a closed world nothing holds but what is given: the engine has to know it as the proof does.
     let closed = tables.fluents.iter().zip(0..).filter(|_| library.closed_world).map(|(fluent, index)| {
@@ -73,6 +77,7 @@ pub(crate) fn lower(
         sentences,
         result: program.result.map(|id| graph::BindingId(id.0)),
         goal,
+        hands,
         nodes,
         regions,
         initial,

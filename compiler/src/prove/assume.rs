@@ -1,9 +1,10 @@
 //! Narrowing: the facts after a condition was observed to hold, or was not observed to hold.
 
 use super::Prover;
+use super::effects::FactChange;
 use super::evaluation::CallFrame;
-use crate::facts::{Cause, PathPartition, TruthSet};
-use crate::ir::{Condition, Fluent};
+use crate::facts::{Atom, Cause, FactKey, PathPartition, TruthSet, effort};
+use crate::ir::{Call, Condition, Fluent, StepId, StepKind};
 
 /// Maximal number of joins that are remembered.
 const MAX_PARTITIONS: usize = 8;
@@ -86,6 +87,121 @@ impl Prover<'_> {
             }
         }
         self.narrow(condition, outcome, cause, frame)
+    }
+
+    /// As [`assume`](Self::assume), for the test of an `if`, which looks at the hands: what they held may have
+    /// dropped by itself.
+    pub(super) fn assume_test(&mut self, id: StepId, condition: &Condition, outcome: Outcome) -> bool {
+        let (here, cause, frame) = (self.state.facts.mark(), Cause::step(id), CallFrame::default());
+        let held = self.held_in(condition);
+        if held.is_empty() {
+            return self.assume(condition, outcome, cause, frame);
+        }
+        let partitions = self.state.partitions.clone();
+        let mut paths = Vec::with_capacity(2);
+        if self.assume(condition, outcome, cause, frame) {
+            paths.push(self.state.facts.delta(here));
+        }
+        // One of them is seen to have dropped, and of the others nothing is known.
+        for seen in &held {
+            self.back_to(here);
+            self.forget_paths(condition);
+            self.drop_held(&held, *seen, cause);
+            if self.narrow(condition, outcome, cause, frame) {
+                self.proof.drops.insert((id, outcome.truth()));
+                paths.push(self.state.facts.delta(here));
+            }
+        }
+        self.back_to(here);
+        self.state.partitions = partitions;
+        self.state.facts.join(&paths);
+        !paths.is_empty()
+    }
+
+    /// Facts in a condition that say that a hand holds something, and that a drop would make otherwise.
+    fn held_in(&self, condition: &Condition) -> Vec<Atom> {
+        let (mut held, mut rest) = (Vec::new(), vec![condition]);
+        while let Some(part) = rest.pop() {
+            rest.extend(part.parts());
+            let Condition::Fact(fact) = part else { continue };
+            let Some(of) = self.held_value(fact.fluent) else { continue };
+            let may_hold = |known: TruthSet| if of { known.yes.is_some() } else { known.no.is_some() };
+            let Some(key) = self.key(fact, CallFrame::default()) else { continue };
+            let atom = (fact.fluent, key);
+            // A name may be that of the thing which is held.
+            let named = || self.has_symbol(fact.fluent, key).then(|| self.instances(atom));
+            if may_hold(self.evaluate(part, CallFrame::default()))
+                || named().into_iter().flatten().any(|(fluent, key)| may_hold(self.value(fluent, key)))
+            {
+                held.push(atom);
+            }
+        }
+        held
+    }
+
+    /// The value that a fact of a fluent has while a hand holds something; `None` for other fluents.
+    fn held_value(&self, fluent: Fluent) -> Option<bool> {
+        let items = &self.library.lang_items;
+        let is = |item: Option<Fluent>| item == Some(fluent);
+        is(items.holding).then_some(true).or_else(|| is(items.free).then_some(false))
+    }
+
+    /// Makes unknown all that the steps have made which may have filled a hand: the thing may be anywhere, and
+    /// what was seen of one hand is known.
+    fn drop_held(&mut self, held: &[Atom], seen: Atom, cause: Cause) {
+        let program = self.program;
+        let mut made = Vec::new();
+        for call in self.grips().iter().filter_map(|id| program.step(*id)) {
+            let StepKind::Call(call) = &call.kind else { continue };
+            let Some(def) = self.library.primitive(call.primitive) else { continue };
+            let changes = self.changes_of(call, &def.makes);
+            let may_be = |change: &FactChange| {
+                let is_same = |(fluent, key): &Atom| {
+                    let is_open = self.has_symbol(*fluent, *key) || self.has_symbol(*fluent, change.key);
+                    change.fluent == *fluent && (is_open || key.meets(change.key))
+                };
+                self.held_value(change.fluent) == Some(change.truth) && held.iter().any(is_same)
+            };
+            if changes.iter().any(may_be) {
+                made.extend(changes);
+            }
+        }
+        let unknown = |(fluent, key)| FactChange::unknown(fluent, key);
+        if made.is_empty() {
+            // It was in the hand from the start.
+            made.extend(self.library.lang_items.free.map(|free| unknown((free, FactKey::ALL))));
+        }
+        made.extend(held.iter().copied().map(unknown));
+        self.unsettle(&made, cause);
+        let (fluent, key) = seen;
+        let is_free = self.held_value(fluent) == Some(false);
+        // Which of several hands is free is not known.
+        if !(is_free && key.is_pattern()) {
+            self.see_change(fluent, key, TruthSet::of(is_free, cause), cause);
+        }
+    }
+
+    /// Calls that may fill a hand, each with its arguments once.
+    fn grips(&mut self) -> std::rc::Rc<[StepId]> {
+        if let Some(known) = &self.grips {
+            return known.clone();
+        }
+        let mut seen: Vec<&Call> = Vec::new();
+        let mut grips = Vec::new();
+        for (index, step) in self.program.steps.iter().enumerate() {
+            let StepKind::Call(call) = &step.kind else { continue };
+            let Some(def) = self.library.primitive(call.primitive) else { continue };
+            let fills = def.makes.iter().any(|it| self.held_value(it.fact.fluent) == Some(it.value));
+            let is_same = |other: &&Call| {
+                (other.primitive, &other.args, other.binds) == (call.primitive, &call.args, call.binds)
+            };
+            effort::spend(1 + if fills { seen.len() } else { 0 });
+            if fills && !seen.iter().any(is_same) {
+                seen.push(call);
+                grips.extend(u32::try_from(index).ok().map(StepId));
+            }
+        }
+        self.grips.insert(grips.into()).clone()
     }
 
     /// Rules out the paths of a join on which `condition` cannot have an outcome; returns false if that is

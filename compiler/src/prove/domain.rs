@@ -141,8 +141,12 @@ impl<'a> Domain<'a> for Prover<'a> {
         if !truth && self.evaluate(condition, CallFrame::default()).open.is_some() {
             self.proof.unknown_tests.insert(id);
         }
-        let is_possible = self.assume(condition, outcome, Cause::step(id), CallFrame::default());
-        let step = self.program.step(id).filter(|_| truth && !is_possible && constant(condition));
+        let step = self.program.step(id);
+        let is_possible = match step.map(|step| &step.kind) {
+            Some(StepKind::If { .. }) => self.assume_test(id, condition, outcome),
+            _ => self.assume(condition, outcome, Cause::step(id), CallFrame::default()),
+        };
+        let step = step.filter(|_| truth && !is_possible && constant(condition));
         if let Some(StepKind::Repeat { until: Some((_, span)), .. }) = step.map(|step| &step.kind) {
             let what = "the loop always runs out of rounds";
             self.tell_once(NeverFires { span: *span, what }.into());

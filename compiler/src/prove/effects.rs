@@ -30,6 +30,11 @@ impl FactChange {
         Self { fluent, key, truth: true, sure: Certainty::Sometimes }
     }
 
+    /// A fact of which nothing is known any more.
+    pub(super) fn unknown(fluent: Fluent, key: FactKey) -> Self {
+        Self { sure: Certainty::Unknown, ..Self::perhaps(fluent, key) }
+    }
+
     /// Returns whether the change happens on every path.
     pub(crate) fn is_sure(&self) -> bool {
         self.sure == Certainty::Always

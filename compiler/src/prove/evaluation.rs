@@ -170,7 +170,7 @@ impl Prover<'_> {
     }
 
     /// Value of a fact, or of a pattern: whether some fact that it covers holds.
-    fn value(&self, fluent: Fluent, key: FactKey) -> TruthSet {
+    pub(super) fn value(&self, fluent: Fluent, key: FactKey) -> TruthSet {
         if !key.is_pattern() {
             return self.read(fluent, key);
         }

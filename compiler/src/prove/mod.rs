@@ -76,6 +76,8 @@ pub(crate) struct Proof {
     pub(crate) reached: Vec<bool>,
     /// Steps whose test may stay unknown in the run, so that their `else` says nothing.
     pub(crate) unknown_tests: FxHashSet<StepId>,
+    /// Outcomes of tests that a drop may have brought about.
+    pub(crate) drops: FxHashSet<(StepId, bool)>,
     /// Certain facts just before a step with a motion.
     pub(crate) certain: FxHashMap<StepId, Vec<CertainFact>>,
     /// Verdict on the goal; `None` without a goal or an end.
@@ -121,6 +123,8 @@ pub(crate) struct Prover<'a> {
     proof: Proof,
     /// States in which control reaches the program point of the target.
     states_at_point: Vec<AbstractState<'static>>,
+    /// Calls that may fill a hand, once they were looked for.
+    grips: Option<std::rc::Rc<[StepId]>>,
     /// Buffers for the changes of a step, reused between steps.
     buffers: (Vec<FactChange>, Vec<FactChange>),
 }
@@ -334,6 +338,7 @@ impl<'a> Prover<'a> {
             diagnostics: Vec::new(),
             proof: Proof::default(),
             states_at_point: Vec::new(),
+            grips: None,
             buffers: Default::default(),
         }
     }

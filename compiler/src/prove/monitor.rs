@@ -161,7 +161,7 @@ impl<'a> Prover<'a> {
     }
 
     /// Drops the paths that have met and that differ in what a condition mentions.
-    fn forget_paths(&mut self, condition: &Condition) {
+    pub(super) fn forget_paths(&mut self, condition: &Condition) {
         self.state.partitions.retain(|partition| !partition.differs(|fluent| mentions(condition, fluent)));
     }
 
@@ -443,11 +443,13 @@ impl<'a> Prover<'a> {
         }
     }
 
-    /// Facts that effects of the primitive of a call change, with the call's arguments and its result.
-    fn changes_of(&self, call: &Call, effects: &[EffectDef]) -> Vec<FactChange> {
+    /// Facts that effects of the primitive of a call have perhaps changed, with the call's arguments and its
+    /// result: what they depend on may have been otherwise then.
+    pub(super) fn changes_of(&self, call: &Call, effects: &[EffectDef]) -> Vec<FactChange> {
         let result = call.binds.and_then(|binding| self.symbols.of_binding(binding.index()));
+        let effects: Vec<_> = effects.iter().map(|it| EffectDef { when: None, ..it.clone() }).collect();
         let mut changed = Vec::new();
-        self.changes(effects, CallFrame { args: &call.args, result, each: None }, &mut changed);
+        self.changes(&effects, CallFrame { args: &call.args, result, each: None }, &mut changed);
         changed
     }
 

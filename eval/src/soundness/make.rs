@@ -1,6 +1,7 @@
 //! Random domains and policies, the same for the same seed. Domains are small, so that policies often meet
 //! what they have changed.
 
+use motet_stdlib::lang::fluents::HOLDING;
 use rand::RngExt as _;
 use rand_xoshiro::SplitMix64;
 
@@ -39,6 +40,10 @@ pub(super) fn domain(dice: &mut SplitMix64) -> Domain {
     domain.fluents = vec![vec![], vec![Kind::Object], vec![Kind::Object], vec![Kind::Entity]];
     domain.fluents.push(vec![Kind::Object, if chance(dice, 50) { Kind::Object } else { Kind::Entity }]);
     domain.names = (0..domain.fluents.len()).map(|index| format!("f{index}")).collect();
+    if let Some(name) = domain.names.get_mut(2).filter(|_| chance(dice, 50)) {
+        // What is held may drop.
+        HOLDING.clone_into(name);
+    }
     if chance(dice, 50) {
         domain.measure = Some(domain.fluents.len());
         domain.fluents.push(vec![Kind::Entity]);

@@ -201,7 +201,8 @@ impl<'d> Bench<'d> {
         let after = (seed / 4) % 16;
         let later = graphs.later.clone().map(|later| (after, later)).filter(|(after, _)| *after < 12);
         let (findings, bindings) = (Vec::new(), Vec::new());
-        Some(Run { engine, world, mood, needs, later, has_swapped: false, findings, bindings, log })
+        let (has_swapped, testing) = (false, Vec::new());
+        Some(Run { engine, world, mood, needs, later, has_swapped, testing, findings, bindings, log })
     }
 
     /// A world of a seed, which also decides its mood.
@@ -232,6 +233,8 @@ struct Run<'d> {
     /// The number of events after which another policy takes over, and its graph.
     later: Option<(u64, Graph)>,
     has_swapped: bool,
+    /// Tests that have begun and have not come out.
+    testing: Vec<NodeId>,
     findings: Vec<Finding>,
     /// Values of the names, by what the run has reported so far.
     bindings: Vec<Option<Value>>,
@@ -284,7 +287,10 @@ impl Run<'_> {
                     return true;
                 }
                 Effect::Start { node, command, .. } => self.started(*node, command),
-                Effect::Report(trace) => self.reported(&trace.what),
+                Effect::Report(trace) => {
+                    self.tests(&trace.what);
+                    self.reported(&trace.what);
+                }
                 _ => {}
             }
             self.world.carry_out(now, &effect);
@@ -299,6 +305,7 @@ impl Run<'_> {
         self.log(now, || format!("< swap: {swapped:?}"));
         if swapped.is_ok() {
             self.has_swapped = true;
+            self.testing.clear();
             self.bindings.clear();
         }
     }
@@ -345,6 +352,23 @@ impl Run<'_> {
             };
             self.note(mistake, format!("need {} of `{command}`", index + 1));
         }
+    }
+
+    /// Follows which tests look at the world. In parallel branches a question may be that of a guard.
+    fn tests(&mut self, what: &TraceEventKind) {
+        let nodes = &self.engine.graph().nodes;
+        let kind = |node: &NodeId| nodes.get(node.index()).map(|node| &node.kind);
+        match what {
+            TraceEventKind::Entered { node } if matches!(kind(node), Some(NodeKind::If { .. })) => {
+                self.testing.push(*node);
+            }
+            TraceEventKind::Tested { node, .. } | TraceEventKind::Ended { node, .. } => {
+                self.testing.retain(|other| other != node);
+            }
+            _ => {}
+        }
+        let is_parallel = nodes.iter().any(|node| matches!(node.kind, NodeKind::Parallel { .. }));
+        self.world.is_tested = !is_parallel && !self.testing.is_empty();
     }
 
     /// A guard refuses: is it right?

@@ -1,11 +1,12 @@
 //! World of a made-up domain, as a driver: it keeps to the contracts, and is otherwise as bad as its mood.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 
 use motet_graph::Value;
 use motet_runtime::{
     Answer, Capabilities, Command, Driver, DriverEvent, GoalId, Outcome, Pattern, PrimitiveSet, Query, Time,
 };
+use motet_stdlib::lang::fluents::HOLDING;
 use rand::RngExt as _;
 use rand_xoshiro::SplitMix64;
 
@@ -33,6 +34,8 @@ struct Running {
     touches: Vec<usize>,
     /// Cells that it may change without a result: a fact of a result begins with it.
     unfinished: Vec<usize>,
+    /// Cells that it makes, if it succeeds.
+    makes: Vec<usize>,
     /// Changes that are still to come, each at its time.
     flips: Vec<(Time, usize, bool)>,
     ends: Time,
@@ -50,6 +53,10 @@ pub(super) struct World<'d> {
     /// Truth of every fact.
     pub(super) state: State,
     veiled: Vec<bool>,
+    /// Of a cell that a step has made, all that it made.
+    made_with: BTreeMap<usize, Vec<usize>>,
+    /// True while a test looks at the hands: then something may have dropped.
+    pub(super) is_tested: bool,
     running: Vec<Running>,
     /// Cells that a goal has touched whose end the host has not heard of.
     unheard: Vec<(GoalId, Vec<usize>)>,
@@ -69,6 +76,11 @@ impl<'d> World<'d> {
     pub(super) fn new(domain: &'d Domain, mood: Mood, mut dice: SplitMix64) -> Self {
         let mut state: State =
             (0..domain.size()).map(|_| !domain.is_closed && chance(&mut dice, 50)).collect();
+        // A hand is empty where nothing is said of it.
+        if let Some(holding) = domain.fluent(HOLDING) {
+            let cells = domain.cells(holding, &[None]);
+            cells.into_iter().for_each(|cell| put(&mut state, cell, false));
+        }
         for (atom, truth) in &domain.start {
             for cell in domain.cells_in(atom, &Frame::default()) {
                 put(&mut state, cell, *truth);
@@ -85,6 +97,8 @@ impl<'d> World<'d> {
             now: Time::ZERO,
             state,
             veiled,
+            made_with: BTreeMap::new(),
+            is_tested: false,
             running: Vec::new(),
             unheard: Vec::new(),
             watches: Vec::new(),
@@ -293,7 +307,26 @@ impl<'d> World<'d> {
             flips.sort_by_key(|(at, ..)| *at);
         }
         flips.extend(finally.into_iter().map(|(cell, truth)| (ends, cell, truth)));
-        Running { id, touches, unfinished, flips, ends, outcome, held: None }
+        let makes = made.iter().filter(|_| succeeds).map(|(cell, _)| *cell).collect();
+        Running { id, touches, unfinished, makes, flips, ends, outcome, held: None }
+    }
+
+    /// What a hand holds drops: nothing that the step which took it has made need be so any more.
+    fn drop_held(&mut self, query: &Query) {
+        let Query::Fact { fluent, .. } = query else { return };
+        let is_open = self.mood == Mood::Adversarial && self.is_tested && self.running.is_empty();
+        if !is_open || fluent != HOLDING || !chance(&mut self.dice, 50) {
+            return;
+        }
+        for cell in self.asked(query).unwrap_or_default() {
+            if self.state.get(cell) == Some(&true) {
+                for other in self.made_with.remove(&cell).unwrap_or_default() {
+                    let truth = chance(&mut self.dice, 50);
+                    self.flip(other, truth);
+                }
+                self.flip(cell, false);
+            }
+        }
     }
 
     /// Interrupts a goal: what it would have changed may have changed.
@@ -315,6 +348,7 @@ impl<'d> World<'d> {
             return;
         }
         let goal = self.running.remove(place);
+        self.made_with.retain(|cell, _| !goal.touches.contains(cell));
         self.unheard.push((id, goal.touches));
         for cell in goal.unfinished {
             if chance(&mut self.dice, 50) {
@@ -350,6 +384,8 @@ impl<'d> World<'d> {
             return self.flip(cell, truth);
         }
         let goal = self.running.remove(place);
+        self.made_with.retain(|cell, _| !goal.touches.contains(cell));
+        self.made_with.extend(goal.makes.iter().map(|cell| (*cell, goal.makes.clone())));
         self.unheard.push((goal.id, goal.touches));
         self.say(now, DriverEvent::Ended { goal: goal.id, outcome: goal.outcome });
     }
@@ -391,9 +427,9 @@ impl Driver for World<'_> {
             };
             self.say(now, DriverEvent::Acknowledged { goal });
             let ends = now.after(Time::from_secs(0.5));
-            let (touches, unfinished, flips) = (Vec::new(), Vec::new(), Vec::new());
-            let outcome = Outcome::Success(chosen);
-            self.running.push(Running { id: goal, touches, unfinished, flips, ends, outcome, held: None });
+            let (touches, unfinished, makes, flips) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+            let (id, outcome) = (goal, Outcome::Success(chosen));
+            self.running.push(Running { id, touches, unfinished, makes, flips, ends, outcome, held: None });
             return;
         };
         if self.mood != Mood::Honest && chance(&mut self.dice, 3) {
@@ -448,6 +484,7 @@ impl Driver for World<'_> {
 
     fn observe(&mut self, now: Time, query: &Query) {
         self.now = now;
+        self.drop_held(query);
         let mut answer = self.answer(query);
         if self.mood == Mood::Veiled && !self.domain.is_closed && chance(&mut self.dice, 10) {
             answer = Answer::Unknown;

@@ -195,6 +195,9 @@ pub(crate) struct Run {
     /// True once a `wait` began whose condition was believed to be false. It lets the world undo what steps
     /// made, so a guard asks before it refuses.
     pub(crate) looks_afresh: bool,
+    /// True once a test has seen that something dropped: the world has undone what steps made, so guards ask
+    /// for all that they need.
+    pub(crate) is_undone: bool,
     /// Motions of calls that are about to start.
     pub(crate) checks: Vec<MotionCheck>,
     /// Number of checks so far.
@@ -289,6 +292,7 @@ impl Run {
             is_held_by_person: false,
             is_unproven: false,
             looks_afresh: false,
+            is_undone: false,
             left: Vec::new(),
             uncleaned: Vec::new(),
             reached: None,

@@ -286,6 +286,43 @@ fn soundness_what_was_waited_for_may_have_undone_a_step() {
     assert!(at_once.contains(&"M0501"), "{at_once:?}");
 }
 
+/// A test looks at what a hand holds: both its branches may be taken, and a guard behind it asks again.
+#[test]
+fn soundness_a_test_of_the_hand_may_find_that_something_dropped() {
+    for test in ["not holding(mug_1)", "free(hand)", "free(hand) and not near(user)"] {
+        let recovers = format!(
+            "policy p {{ go(mug_1) pick(mug_1) go(counter) if {test} {{ go(mug_1) pick(mug_1) go(counter) }} \
+             place(mug_1, counter) }}"
+        );
+        let found = session_codes(Some("kitchen"), &recovers);
+        assert!(!found.contains(&"M0501") && !found.contains(&"M0902"), "{test}: {found:?}");
+    }
+    // What was put down is not taken up by itself, and nobody moves what is on a table.
+    let steps = "go(mug_1) pick(mug_1) go(counter) place(mug_1, counter)";
+    for test in ["holding(mug_1)", "not free(hand)", "not on(mug_1, counter)"] {
+        let dead = format!("policy p {{ {steps} if {test} {{ say(\"x\") }} }}");
+        assert!(session_codes(Some("kitchen"), &dead).contains(&"M0902"), "{test}");
+    }
+    let take = "action take(o: Object)\n    needs not holding(o), not g(o)\n    makes holding(o), g(o)\n";
+    let policy =
+        |steps: &str| format!("{take}initially not holding(a), not g(a)\npolicy p {{ take(a) {steps} }}");
+    let tests = policy("if not holding(a) { take(a) }");
+    assert_eq!(verdicts("take", &tests), [Verdict::Proven, Verdict::Deferred]);
+    let starts = |policy: &str, see: &dyn Fn(&str) -> Option<bool>| {
+        let found = requests(policy, &mut |effect| honest(effect, |query| see(&query.to_string())));
+        found.iter().filter(|request| request.starts_with("start")).count()
+    };
+    assert_eq!(starts(&tests, &|_| Some(false)), 2);
+    // It was not dropped, nobody can tell, or what the first step made besides still holds.
+    assert_eq!(starts(&tests, &|_| Some(true)), 1);
+    assert_eq!(starts(&tests, &|_| None), 1);
+    assert_eq!(starts(&tests, &|query| Some(query == "g(a)")), 1);
+    // What the robot sees it has dropped it does not put away.
+    let puts = policy("if holding(a) { pass() }");
+    assert_eq!(starts(&puts, &|_| Some(false)), 1);
+    assert_eq!(starts(&puts, &|_| None), 2);
+}
+
 #[test]
 fn soundness_a_driver_that_cannot_tell_takes_nothing_back() {
     let policy = "initially f(a)\npolicy p { repeat 1 { pass() } until f(a) use(a) }";

@@ -119,6 +119,7 @@ pub fn declarations() -> Graph {
         sentences: vec![FailureSentence { failure: UNREACHABLE, text: name("no motion leads there") }],
         result: None,
         goal: Vec::new(),
+        hands: Vec::new(),
         nodes: Vec::new(),
         regions: Vec::new(),
         initial: vec![InitialFact { fact: Fact { fluent: HOLDING, args: vec![FactArg::Any] }, value: false }],

@@ -107,6 +107,9 @@ pub struct Graph {
     /// run fails if one of them is false.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub goal: Vec<Condition>,
+    /// Tests of an `if` that look again at what a hand holds: it may have dropped.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub hands: Vec<NodeId>,
     /// Regions; the first is the policy's body.
     pub regions: Vec<Region>,
     /// Nodes in document order: a parent before its children.
@@ -150,6 +153,7 @@ impl Graph {
             sentences: Vec::new(),
             result: None,
             goal: Vec::new(),
+            hands: Vec::new(),
             regions: vec![Region { owner: None, entry: None }],
             nodes: Vec::new(),
             initial: Vec::new(),

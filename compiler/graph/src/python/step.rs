@@ -86,7 +86,8 @@ impl Writer<'_> {
             }
             NodeKind::If { condition, then, otherwise } => {
                 let condition = self.condition(condition);
-                self.line(level, &format!("if await robot.test({condition}):"));
+                let looks = if self.graph.hands.contains(&id) { ", looks=True" } else { "" };
+                self.line(level, &format!("if await robot.test({condition}{looks}):"));
                 self.region(*then, level + 1)?;
                 if let Some(otherwise) = otherwise {
                     self.line(level, "else:");

@@ -14,6 +14,9 @@ pub(crate) enum Freshness {
     Readings(Time),
     /// Also a fact that can be observed counts only if it was seen after the observation of this number.
     Facts(Time, u64),
+    /// As [`Self::Readings`], and that a hand holds something counts only if it was seen after the observation
+    /// of this number: it may have dropped.
+    Hands(Time, u64),
     /// As [`Self::Readings`], and no fact counts that was seen or changed after the observation or the effect
     /// of this number.
     Before(Time, u64),
@@ -179,11 +182,12 @@ impl Evaluator<'_> {
         if fluent.name == DERIVED && !self.is_current(&fluent.name, &args) {
             truth = Truth::Unknown;
         }
-        if let Freshness::Facts(_, since) = self.fresh
-            && fluent.observable
-            && seen <= since
-            && !self.is_live(&fluent.name, &args)
-        {
+        let last = match self.fresh {
+            Freshness::Facts(_, last) => Some(last),
+            Freshness::Hands(_, last) if is_held(&fluent.name, truth) => Some(last),
+            Freshness::Hands(..) | Freshness::Readings(_) | Freshness::Before(..) => None,
+        };
+        if last.is_some_and(|last| seen <= last) && fluent.observable && !self.is_live(&fluent.name, &args) {
             truth = Truth::Unknown;
         }
         let is_busy = |change: &BeliefChange| change.fluent == fluent.name && overlaps(&change.args, &args);
@@ -207,9 +211,10 @@ impl Evaluator<'_> {
 
     /// Time from which on readings count.
     fn since(&self) -> Time {
-        let (Freshness::Readings(since) | Freshness::Facts(since, _) | Freshness::Before(since, _)) =
-            self.fresh;
-        since
+        match self.fresh {
+            Freshness::Readings(since) | Freshness::Facts(since, _) => since,
+            Freshness::Hands(since, _) | Freshness::Before(since, _) => since,
+        }
     }
 
     /// True if a fact is watched, so that what is known of it is current.
@@ -287,6 +292,15 @@ impl Evaluator<'_> {
             Comparison::AtLeast => order.map(std::cmp::Ordering::is_ge),
         };
         truth.map_or(Truth::Unknown, Truth::from)
+    }
+}
+
+/// True if a fact with this truth says that a hand holds something.
+pub(crate) fn is_held(fluent: &str, truth: Truth) -> bool {
+    match truth {
+        Truth::True => fluent == motet_stdlib::lang::fluents::HOLDING,
+        Truth::False => fluent == motet_stdlib::lang::fluents::FREE,
+        Truth::Unknown => false,
     }
 }
 

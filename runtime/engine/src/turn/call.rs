@@ -167,12 +167,13 @@ impl Turn<'_> {
             if !self.is_asked(node, call, need) {
                 continue;
             }
-            let mut truth = self.need(need, fresh);
+            let afresh = Freshness::Facts(since, seen);
+            let mut truth = self.need(need, if self.run.is_undone { afresh } else { fresh });
             let looks_afresh = attempt > 1 || self.run.looks_afresh || plan.is_in_reaction(node);
             if truth == Truth::False && looks_afresh {
                 // A retry looks afresh: what refused it before may have changed. A reaction does so too, and
                 // what comes behind a wait: the world may have undone what a step made.
-                truth = self.need(need, Freshness::Facts(since, seen));
+                truth = self.need(need, afresh);
             }
             let refusal = StartRefusal::Need(index as u32, need.failure, truth);
             match truth {

@@ -123,10 +123,11 @@ impl Decision {
 impl Turn<'_> {
     /// Tests the condition of an `if` or the `until` of a loop, or finds the value of a `let`.
     pub(super) fn decide(&mut self, node: NodeId) {
-        let now = self.run.now;
+        let (now, seen) = (self.run.now, self.run.beliefs.observations);
         let state = self.run.nodes.at_mut(node.index());
         state.phase = Phase::Deciding;
         state.since = now;
+        state.seen = seen;
         let decision = self.decision(node, false);
         if decision.is_open() && self.ask(node) {
             return;
@@ -145,6 +146,11 @@ impl Turn<'_> {
     fn decided(&mut self, node: NodeId, decision: Decision) {
         match decision {
             Decision::Truth(truth) if node == self.plan.goal() => self.goal_observed(truth),
+            Decision::Truth(Truth::Unknown) => {
+                // Where nobody can tell what is in a hand, what was believed stands.
+                let truth = self.believed(node);
+                self.tested(node, truth);
+            }
             Decision::Truth(truth) => self.tested(node, truth),
             Decision::Value(Some(value)) => self.found(node, Some(value)),
             // Nothing more will be known: a text says so.
@@ -164,7 +170,14 @@ impl Turn<'_> {
             return Decision::Truth(self.goal());
         }
         match &plan.node(node).kind {
-            NodeKind::If { condition, .. } | NodeKind::Repeat { until: Some(condition), .. } => {
+            NodeKind::If { condition, .. } => {
+                let seen = self.run.nodes.at(node.index()).seen;
+                // A goal that a policy takes over goes on only if that is decided at once.
+                let looks = plan.graph.hands.contains(&node) && self.run.orphans.is_empty();
+                let fresh = if looks { Freshness::Hands(since, seen) } else { Freshness::Readings(since) };
+                Decision::Truth(self.judge_missing(fresh).condition(condition))
+            }
+            NodeKind::Repeat { until: Some(condition), .. } => {
                 Decision::Truth(self.judge_missing(Freshness::Readings(since)).condition(condition))
             }
             NodeKind::Let { value, .. } => {
@@ -185,6 +198,14 @@ impl Turn<'_> {
                 Decision::Truth(Truth::Unknown)
             }
         }
+    }
+
+    /// Truth of the condition of an `if` by what is believed.
+    fn believed(&mut self, node: NodeId) -> Truth {
+        let plan = self.plan;
+        let NodeKind::If { condition, .. } = &plan.node(node).kind else { return Truth::Unknown };
+        let since = self.run.nodes.at(node.index()).since;
+        self.judge_missing(Freshness::Readings(since)).condition(condition)
     }
 
     /// The policy is done: its goal is observed before the run ends. What its effects say of the goal does

@@ -1,7 +1,7 @@
 //! Goals: what drivers report of them, and how they are ended early.
 
 use super::Turn;
-use crate::belief::{CellId, Freshness};
+use crate::belief::{CellId, Freshness, is_held};
 use crate::cleanup::strike;
 use crate::effect::{Effect, Fault};
 use crate::event::{DriverEvent, FailureReport, Outcome};
@@ -11,7 +11,7 @@ use crate::schedule::{NodeExit, Transition};
 use crate::state::{GoalIntent, Phase};
 use crate::trace::{EndCause, NodeEnding, TraceEventKind};
 use motet_graph::draw::Names;
-use motet_graph::{CallNode, FailureId, NodeId, TIMEOUT, Value};
+use motet_graph::{CallNode, FailureId, NodeId, NodeKind, TIMEOUT, Value};
 use motet_stdlib::lang;
 use smol_str::SmolStr;
 
@@ -139,13 +139,22 @@ impl Turn<'_> {
         }
     }
 
-    /// Nobody will ever say that what is live stands still.
+    /// Nobody will ever say that what is live stands still. Where nothing is, nobody will ever tell what steps
+    /// wait for.
     fn gone(&mut self) {
         let (live, revision) = (self.run.goals.live(), self.run.revision);
         let own = live.first().map(|(_, node)| (*node, revision));
         let orphan = self.run.orphans.first().map(|orphan| (orphan.node, orphan.revision));
         if let Some((node, revision)) = own.or(orphan) {
-            self.fault(Fault::NotStopped { node, revision });
+            return self.fault(Fault::NotStopped { node, revision });
+        }
+        for index in 0..self.plan.graph.nodes.len() {
+            let node = NodeId(index as u32);
+            let is_wait = matches!(self.plan.node(node).kind, NodeKind::Wait { .. });
+            if is_wait && self.run.nodes.at(index).phase == Phase::Waiting {
+                self.leave_wait(node);
+                self.fail(node, TIMEOUT, EndCause::Lost);
+            }
         }
     }
 
@@ -325,9 +334,11 @@ impl Turn<'_> {
             known = Some(self.run.beliefs.intern(query));
         }
         let Some(id) = known else { return };
+        let was_held = self.is_tested_and_held(id);
         if self.run.beliefs.observe(id, answer, self.run.now) && self.ask_again(id) {
             return;
         }
+        self.run.is_undone |= was_held && !self.is_tested_and_held(id);
         // A reading that was taken afresh counts from now on, also where it reads the same.
         self.run.beliefs.note(id);
         let mut asked = std::mem::take(&mut self.run.asked);
@@ -338,6 +349,16 @@ impl Turn<'_> {
             *cell != id
         });
         self.run.asked = asked;
+    }
+
+    /// True if a test has asked for a fact by which a hand is believed to hold something.
+    fn is_tested_and_held(&self, id: CellId) -> bool {
+        let tests = &self.plan.graph.hands;
+        let is_tested = self.run.asked.iter().any(|(cell, node)| *cell == id && tests.contains(node));
+        match self.run.beliefs.cell(id).filter(|_| is_tested).map(|cell| &*cell.query) {
+            Some(Query::Fact { fluent, args }) => is_held(fluent, self.run.beliefs.fact(fluent, args).0),
+            Some(Query::Measure { .. } | Query::Field { .. }) | None => false,
+        }
     }
 
     /// Asks once more for what a late answer did not settle. Returns false if nobody waits for it.

@@ -58,6 +58,7 @@ fn policy(calls: &[(&str, &[(&str, Option<Value>)])], retries: u32) -> Graph {
         sentences: Vec::new(),
         result: None,
         goal: Vec::new(),
+        hands: Vec::new(),
         policy: "fetch".into(),
         robot: "hsr".into(),
         kinds: vec![kind("Entity", None), kind("Object", Some(KindId(0)))],
