@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use motet_graph::Graph;
 use motet_graph::draw::Names;
-use motet_runtime::{Effect, Event, RunEnd, Time};
+use motet_runtime::{Effect, Event, Fault, RunEnd, Time};
 
 use crate::flags::OutputFormat;
 use crate::output::{Colors, escape};
@@ -116,7 +116,14 @@ fn summary(
         RunEnd::Replan { why } => (StepStatus::Failed, "asks for a new plan".to_owned(), why.clone()),
         RunEnd::Interrupted => (StepStatus::Interrupted, "interrupted".to_owned(), None),
         RunEnd::Fault(fault) => {
-            (StepStatus::Failed, "stopped by a fault of the engine".to_owned(), Some(fault.to_string()))
+            let mut why = fault.to_string();
+            // The step may be of a policy before this one.
+            if let Fault::NotStopped { node, .. } = fault
+                && let Some(row) = tree.row(*node).filter(|row| row.status == StepStatus::Running)
+            {
+                why.push_str(&format!("; it was at `{}`", row.label));
+            }
+            (StepStatus::Failed, "stopped by a fault of the engine".to_owned(), Some(why))
         }
     };
     let mut text = paint(&format!("{} {}: {what}", mark(status), escape(&graph.policy)), status, is_colored);

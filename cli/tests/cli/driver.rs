@@ -34,12 +34,17 @@ pub(crate) fn recorded(policy: &str, driver: &str) -> Vec<String> {
 pub(crate) fn odd(then: &str) -> String {
     format!(
         "import sys,json,time\n\
+         live = False\n\
          def say(x): print(json.dumps(dict(x, jsonrpc='2.0')), flush=True)\n\
          for line in sys.stdin:\n\
          \x20   m = json.loads(line)\n\
          \x20   if m['method'] == 'hello':\n\
          \x20       say({{'id': m['id'], 'result': {{'protocol': 2, 'driver': 'odd', 'instance': 'x',\n\
          \x20           'capabilities': {{'hold': 'all', 'update': {{'only': []}}}}}}}})\n\
+         \x20       continue\n\
+         \x20   if m['method'] == 'ping' and not live:\n\
+         \x20       live = True\n\
+         \x20       say({{'id': m['id'], 'result': {{}}}})\n\
          \x20       continue\n\
          {then}"
     )
@@ -216,21 +221,46 @@ fn driver_that_misbehaves_is_named_and_stopped_safely() {
 }
 
 #[test]
-fn driver_that_dies_after_its_greeting_ends_the_run_soon() {
+fn driver_that_dies_or_says_nothing_more_ends_the_run_soon() {
     if !has_python() {
         return;
     }
-    let place = Place::new("drive_dies").file("away.motet", AWAY);
-    // At once, or at what it hears next.
-    for dies in [odd("").replace("continue", "sys.exit(0)"), odd("    sys.exit(0)\n")] {
-        let driver = place.path("dies");
-        std::fs::write(&driver, dies).unwrap();
+    let waits = "policy waits for hsr {\n    wait until near(user) within 300 s\n}\n";
+    let place = Place::new("drive_dies").file("away.motet", AWAY).file("waits.motet", waits);
+    let ends = |name: &str, policy: &str, driver: String| {
+        let path = place.path(name);
+        std::fs::write(&path, driver).unwrap();
         let begun = Instant::now();
-        let ran = place.run_args(&driven("away.motet", &format!("python3 '{}'", driver.display())));
-        ran.check(3, &["out:confirmed neither a cancel nor a safe stop; the robot may still move"]);
-        // A safe stop is waited for during 17 s.
-        assert!(begun.elapsed().as_secs_f64() < 12.0, "{:?}", begun.elapsed());
+        let ran = place.run_args(&driven(policy, &format!("python3 '{}'", path.display())));
+        (ran, begun.elapsed().as_secs_f64())
+    };
+    let mute = odd("").replace("if m['method'] == 'ping' and not live", "if False");
+    // At its greeting, at what it hears next, deaf or dumb from then on.
+    for (name, driver, why) in [
+        (
+            "dies",
+            odd("").replacen("continue", "sys.exit(0)", 1),
+            "the driver ended, or closed the connection",
+        ),
+        ("mute", mute.clone(), "and then nothing for 2.0 s; it was told to do nothing"),
+        ("deaf", mute.replacen("continue", "time.sleep(60)", 1), "and then nothing for 2.0 s"),
+    ] {
+        let (ran, secs) = ends(name, "away.motet", driver);
+        ran.check(2, &[&format!("err:{why}")]);
+        assert!(!ran.stdout.contains('▶') && secs < 5.0, "{name}: {secs} s: {ran:#?}");
     }
+    // Once it was told to move, what it does is not known.
+    let (ran, secs) = ends("goes", "away.motet", odd("    sys.exit(0)\n"));
+    ran.check(3, &["out:confirmed neither a cancel nor a safe stop; the robot may still move"]);
+    ran.check(3, &["out:it was at `go(kitchen_table)`"]);
+    assert!(secs < 12.0, "{secs}");
+    // Nothing moves while it is waited for: it is called again, and is as silent.
+    let once = odd("").replace("live = False", "import os\nlive = os.path.exists('was_here')");
+    let once = once.replace("live = True", "open('was_here', 'w')\n        live = True");
+    let once = once.replace("if m['method'] == 'ping' and not live", "if not live and 'id' in m");
+    let (ran, secs) = ends("falls", "waits.motet", once);
+    ran.check(3, &["err:gave no sign of life", "err:it was told to do nothing", "out:failed with `timeout`"]);
+    assert!((4.0..20.0).contains(&secs), "{secs} s: {ran:#?}");
 }
 
 #[test]
@@ -334,7 +364,7 @@ fn check_tells_the_laws_that_a_driver_breaks() {
             "out:✗ stopped safely: a safe stop is always answered",
             "out:`say` failed with `melted`, which it does not declare",
             "out:has ended, it says, but it does not run",
-            "out:    > {\"jsonrpc\":\"2.0\",\"id\":1,\"method\":\"start\"",
+            "out:    > {\"jsonrpc\":\"2.0\",\"id\":2,\"method\":\"start\"",
             "out:✓ observed",
         ],
     );

@@ -25,13 +25,14 @@ use motet_graph::Graph;
 use motet_runtime::journal::{OpenGoal, OpenGoals};
 use motet_runtime::{Capabilities, Driver, DriverClock, DriverEvent, Effect, Event, GoalId, Query, Time};
 use motet_stdlib::lang;
+use serde_json::Value;
 use smol_str::SmolStr;
 use std::collections::{BTreeMap, VecDeque};
 #[cfg(unix)]
 use std::os::unix::net::UnixStream;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// The most breaches of promises that are told.
 const MOST_BREACHES: u32 = 20;
@@ -178,31 +179,12 @@ impl RemoteDriver {
 
     /// Greets on a connection, which is kept if the answer is good.
     fn greet_on(&mut self, link: Link) -> Result<Vec<String>, LinkError> {
-        let id = self.id();
-        let said = say(id, &DriverCall::Hello(self.hello.clone()), Some(self.time.now()));
-        self.log.line(LineFrom::Host, &said);
-        link.say(said)?;
-        let due = Instant::now() + self.patience.greeting;
-        let mut early = Vec::new();
-        let (welcome, line) = loop {
-            let Some(line) = link.hear(due.saturating_duration_since(Instant::now()))? else {
-                let secs = self.patience.greeting.as_secs_f64();
-                return Err(LinkError::Greeting(format!("nothing for {secs:.1} s")));
-            };
-            match hear(&line).map_err(|why| nonsense(&line, why))? {
-                DriverMessage::Answer(answered, Ok(welcome)) if answered == id => break (welcome, line),
-                DriverMessage::Answer(answered, Err(wrong)) if answered == id => {
-                    return Err(LinkError::Greeting(wrong.message));
-                }
-                DriverMessage::Report(_) if early.len() < MAX_WAITING => early.push(line),
-                // The answer to a call of the run before, or to a sign of life.
-                DriverMessage::Answer(answered, _) if answered < self.next_id.load(Ordering::SeqCst) => {}
-                DriverMessage::Answer(..) | DriverMessage::Report(_) => {
-                    return Err(LinkError::Greeting("it said something else first".to_owned()));
-                }
-            }
+        let (mut early, call) = (Vec::new(), DriverCall::Hello(self.hello.clone()));
+        let greeted = self.ask_on(&link, &call, self.patience.greeting, &mut early)?;
+        let Some((welcome, line)) = greeted else {
+            let secs = self.patience.greeting.as_secs_f64();
+            return Err(LinkError::Greeting(format!("nothing for {secs:.1} s")));
         };
-        self.log.line(LineFrom::Driver, &line);
         let welcome: Welcome =
             serde_json::from_value(welcome).map_err(|why| nonsense(&line, why.to_string()))?;
         if welcome.protocol != VERSION {
@@ -214,6 +196,11 @@ impl RemoteDriver {
         if !is_first && welcome.capabilities.clock != self.welcome.capabilities.clock {
             return Err(LinkError::Greeting("the clock is no longer owned by whom it was".to_owned()));
         }
+        // One that hears nothing is told nothing that moves the robot.
+        if welcome.capabilities.clock == DriverClock::Wall {
+            let (call, within) = (DriverCall::Ping(EmptyParams {}), self.patience.answer);
+            self.ask_on(&link, &call, within, &mut early)?.ok_or(LinkError::Mute(within))?;
+        }
         self.welcome = welcome;
         // Whoever is called again goes on with the same run.
         self.hello.resumed = true;
@@ -223,6 +210,40 @@ impl RemoteDriver {
         }
         self.link = Some(link);
         Ok(early)
+    }
+
+    /// Asks on a connection that is being made; `None` where no answer comes in time. Reports before it are
+    /// kept.
+    fn ask_on(
+        &mut self,
+        link: &Link,
+        call: &DriverCall,
+        within: Duration,
+        early: &mut Vec<String>,
+    ) -> Result<Option<(Value, String)>, LinkError> {
+        let id = self.id();
+        let said = say(id, call, Some(self.time.now()));
+        self.log.line(LineFrom::Host, &said);
+        link.say(said)?;
+        let due = Instant::now() + within;
+        while let Some(line) = link.hear(due.saturating_duration_since(Instant::now()))? {
+            match hear(&line).map_err(|why| nonsense(&line, why))? {
+                DriverMessage::Answer(answered, Ok(answer)) if answered == id => {
+                    self.log.line(LineFrom::Driver, &line);
+                    return Ok(Some((answer, line)));
+                }
+                DriverMessage::Answer(answered, Err(wrong)) if answered == id => {
+                    return Err(LinkError::Greeting(wrong.message));
+                }
+                DriverMessage::Report(_) if early.len() < MAX_WAITING => early.push(line),
+                // The answer to a call of the run before, or to a sign of life.
+                DriverMessage::Answer(answered, _) if answered < self.next_id.load(Ordering::SeqCst) => {}
+                DriverMessage::Answer(..) | DriverMessage::Report(_) => {
+                    return Err(LinkError::Greeting("it said something else first".to_owned()));
+                }
+            }
+        }
+        Ok(None)
     }
 
     /// Greets for another run, on the same connection or, where that is gone, on a new one. What was asked

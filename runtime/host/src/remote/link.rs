@@ -27,6 +27,8 @@ pub enum LinkError {
     Read(String),
     /// It said nothing for so long, though it was asked for a sign of life.
     Silent(Duration),
+    /// It has answered its greeting, and nothing behind it for so long.
+    Mute(Duration),
     /// It does not take in what is said to it.
     Deaf,
     /// It said a line that is too long.
@@ -53,6 +55,13 @@ impl fmt::Display for LinkError {
             Self::Read(why) => write!(f, "the driver cannot be heard: {why}"),
             Self::Silent(span) => {
                 write!(f, "the driver gave no sign of life for {:.1} s", span.as_secs_f64())
+            }
+            Self::Mute(span) => {
+                let secs = span.as_secs_f64();
+                write!(
+                    f,
+                    "the driver answered its greeting, and then nothing for {secs:.1} s; it was told to do nothing"
+                )
             }
             Self::Deaf => f.write_str("the driver does not take in what is said to it"),
             Self::Flood => {

@@ -226,8 +226,9 @@ impl RemoteDriver {
     /// Looks after answers that are overdue, and signs of life.
     pub(super) fn tend(&mut self) {
         if self.link.is_none() {
-            // What may still move is to be stopped, whoever has to be called for it.
-            if !self.goals.stopping.is_empty() && self.call_at <= Instant::now() {
+            // What may still move is to be stopped, and what is watched to be seen, whoever has to be called.
+            let is_watched = !self.watches.is_empty() && self.restarts > 0;
+            if (is_watched || !self.goals.stopping.is_empty()) && self.call_at <= Instant::now() {
                 self.reach_to_stop();
             }
             return;
