@@ -20,7 +20,7 @@ use crate::error::CliError;
 pub(crate) use batch::{JobArgs, ResultArgs};
 pub(crate) use driver::{DriverArgs, DriverChoice, Speed, seed};
 pub(crate) use key::{KeyArgs, token_from};
-pub(crate) use server::{CarrierArg, ServerArgs, ServerDialect, refuse_carrier};
+pub(crate) use server::{CarrierArg, ServerArgs, ServerDialect, refuse_carrier, tell_proxy};
 
 /// Documents to read.
 #[derive(Args, Debug)]

@@ -12,6 +12,7 @@ use serde_json::Value;
 use crate::error::{CliError, Exit};
 use crate::flags::{
     CarrierArg, DiagnosticFormat, EnvironmentArgs, KeyArgs, ServerDialect, SyntaxArg, refuse_carrier,
+    tell_proxy,
 };
 use crate::output::{Colors, Output, note};
 use crate::report::Report;
@@ -231,6 +232,7 @@ fn ask(args: &ProbeArgs, address: ServerUrl, body: &Value) -> Result<Value, CliE
     let failed = |why: String| CliError::Message(format!("cannot ask `{address}`: {why}"));
     let timeout = Duration::from_secs(args.timeout);
     let key = args.key.key(&address)?;
+    tell_proxy(&address);
     let settings = ClientSettings {
         dialect: Some(args.dialect.into()),
         key,

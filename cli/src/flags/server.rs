@@ -11,6 +11,7 @@ use motet_decode::export::{Dialect, GrammarCarrier};
 
 use super::key::KeyArgs;
 use crate::error::CliError;
+use crate::output::note;
 
 /// Server of the model, and its dialect.
 #[derive(Args, Debug)]
@@ -42,6 +43,7 @@ impl ServerArgs {
         refuse_carrier(dialect, self.carrier)?;
         let address = ServerUrl::new(server, dialect).map_err(CliError::Message)?;
         let key = self.key.key(&address)?;
+        tell_proxy(&address);
         let timeout = Duration::from_secs(self.timeout);
         let new = ClientSettings::new(address, &self.model);
         Ok(ClientSettings {
@@ -53,6 +55,13 @@ impl ServerArgs {
             idle_timeout: timeout,
             ..new
         })
+    }
+}
+
+/// Says through which proxy requests to a server go, if the environment names one.
+pub(crate) fn tell_proxy(address: &ServerUrl) {
+    if let Some(proxy) = address.proxy() {
+        note(&format!("requests to {address} go through the proxy {proxy}"));
     }
 }
 

@@ -3,6 +3,9 @@
 use crate::grammar::{scripted, server};
 use crate::support::Place;
 use serde_json::{Value, json};
+use std::io::{Read as _, Write as _};
+use std::net::TcpListener;
+use std::sync::{Arc, Mutex};
 
 const DO: &str = "do go_to_the_counter --robot hsr --scene kitchen --no-geometry --speed max --ask never";
 
@@ -130,5 +133,63 @@ fn what_cannot_be_used_is_said_before_anything_is_asked() {
         let ran = place.run(&format!("{DO} {flags}"));
         assert_eq!((ran.code, ran.stderr.contains(words)), (Some(2), true), "{flags}: {}", ran.stderr);
         assert!(!ran.stderr.contains("sk-0123"), "{}", ran.stderr);
+    }
+}
+
+/// A proxy that grants each connection and then hangs up: its address, and all that it is told.
+fn proxy() -> (String, Arc<Mutex<Vec<u8>>>) {
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let address = listener.local_addr().unwrap().to_string();
+    let told = Arc::new(Mutex::new(Vec::new()));
+    let heard = Arc::clone(&told);
+    std::thread::spawn(move || {
+        for mut stream in listener.incoming().map_while(Result::ok) {
+            let mut piece = [0; 4096];
+            for answer in [&b"HTTP/1.1 200 OK\r\n\r\n"[..], b""] {
+                let read = stream.read(&mut piece).unwrap_or(0);
+                heard.lock().unwrap().extend_from_slice(&piece[..read]);
+                let _ = stream.write_all(answer);
+            }
+        }
+    });
+    (address, told)
+}
+
+#[test]
+fn proxy_is_said_without_its_password_and_sees_no_key() {
+    let place = Place::new("model_proxy");
+    let ask = |server: &str, flags: &str, variables: &[(&str, &str)]| {
+        let (address, told) = proxy();
+        let through = format!("http://me:pass-word@{address}");
+        let mut all = vec![("SOME_KEY", "very-secret"), ("NO_PROXY", ""), ("no_proxy", "")];
+        for name in ["HTTP_PROXY", "http_proxy", "HTTPS_PROXY", "https_proxy", "ALL_PROXY", "all_proxy"] {
+            all.push((name, through.as_str()));
+        }
+        all.extend(variables);
+        let line = format!("{DO} --planner {server} --model m --key-from SOME_KEY --timeout 3 {flags}");
+        let ran = place.run_with(&line, b"", &all);
+        assert!(!ran.stderr.contains("pass-word") && !ran.stderr.contains("very-secret"), "{ran:#?}");
+        let said = ran.stderr.contains(&format!("go through the proxy http://{address}\n"));
+        let told = String::from_utf8_lossy(&told.lock().unwrap()).into_owned();
+        (ran.code, said, told)
+    };
+    // With encryption the proxy sees where it goes, and neither the key nor the request.
+    let (code, is_said, told) = ask("https://models.example", "", &[]);
+    assert_eq!((code, is_said), (Some(3), true), "{told}");
+    assert!(told.starts_with("CONNECT models.example:443 ") && told.contains("Basic "), "{told}");
+    assert!(!told.contains("very-secret") && !told.contains("go_to_the_counter"), "{told}");
+    // Without, nothing is sent but by permission.
+    let (code, is_said, told) = ask("http://models.example", "", &[]);
+    assert_eq!((code, is_said, told.as_str()), (Some(2), false, ""));
+    let (code, is_said, told) = ask("http://models.example", "--key-in-clear", &[]);
+    assert_eq!((code, is_said), (Some(3), true), "{told}");
+    assert!(told.contains("very-secret"), "{told}");
+    // Nothing stands between this machine and itself, or before what is excepted.
+    for (server, variables) in [
+        ("http://127.0.0.1:9", &[][..]),
+        ("https://models.invalid", &[("NO_PROXY", "invalid"), ("no_proxy", "invalid")]),
+    ] {
+        let (code, is_said, told) = ask(server, "", variables);
+        assert_eq!((code, is_said, told.as_str()), (Some(3), false, ""), "{server}");
     }
 }

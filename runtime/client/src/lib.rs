@@ -10,7 +10,7 @@ mod talk;
 
 pub use image::{EncodedImage, ImageError, MAX_IMAGE_BYTES};
 pub use reply_reader::content;
-pub use settings::{ApiKey, ClientSettings, ServerUrl};
+pub use settings::{ApiKey, ClientSettings, ProxyUrl, ServerUrl};
 
 use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
@@ -58,15 +58,18 @@ impl Client {
             value.set_sensitive(true);
             headers.insert(HeaderName::from_static(name), value);
         }
+        let wrong_builder = |error| wrong(stream::reason(error));
         let mut builder = reqwest::Client::builder()
             .default_headers(headers)
             .connect_timeout(settings.connect_timeout)
             // A key is not carried to where a server points.
-            .redirect(redirect::Policy::none());
-        if settings.address.is_loopback() {
-            builder = builder.no_proxy();
+            .redirect(redirect::Policy::none())
+            // The one that people are told of, and no other.
+            .no_proxy();
+        if let Some(proxy) = settings.address.proxy() {
+            builder = builder.proxy(proxy.proxy().map_err(wrong_builder)?);
         }
-        let http = builder.build().map_err(|error| wrong(stream::reason(error)))?;
+        let http = builder.build().map_err(wrong_builder)?;
         let runtime = tokio::runtime::Builder::new_multi_thread()
             .worker_threads(1)
             .thread_name("motet-client")

@@ -4,6 +4,7 @@ use std::fmt;
 use std::net::IpAddr;
 use std::time::Duration;
 
+use hyper_util::client::proxy::matcher::{Intercept, Matcher};
 use motet_decode::export::{Delivery, Dialect, GrammarCarrier, Protocol};
 use reqwest::Url;
 
@@ -129,6 +130,14 @@ impl ServerUrl {
         Ok(Self(url))
     }
 
+    /// The proxy through which requests go, by the environment (`HTTPS_PROXY`, `HTTP_PROXY`, `ALL_PROXY`,
+    /// `NO_PROXY`, also in small letters). None stands before this machine.
+    #[must_use]
+    pub fn proxy(&self) -> Option<ProxyUrl> {
+        let url = self.0.as_str().parse().ok().filter(|_| !self.is_loopback())?;
+        Matcher::from_env().intercept(&url).map(ProxyUrl)
+    }
+
     /// True if it is this machine.
     #[must_use]
     pub fn is_loopback(&self) -> bool {
@@ -165,6 +174,31 @@ fn is_chat(dialect: Option<Dialect>) -> bool {
 impl fmt::Display for ServerUrl {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.0.fmt(f)
+    }
+}
+
+/// A proxy on the way to a server. Its name and password are not shown.
+#[derive(Clone, Debug)]
+pub struct ProxyUrl(Intercept);
+
+impl ProxyUrl {
+    /// The proxy, for all requests of a client.
+    pub(crate) fn proxy(&self) -> reqwest::Result<reqwest::Proxy> {
+        let proxy = reqwest::Proxy::all(self.0.uri().to_string())?;
+        Ok(match (self.0.basic_auth(), self.0.raw_auth()) {
+            (Some(auth), _) => proxy.custom_http_auth(auth.clone()),
+            (None, Some((name, password))) => proxy.basic_auth(name, password),
+            (None, None) => proxy,
+        })
+    }
+}
+
+impl fmt::Display for ProxyUrl {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let uri = self.0.uri();
+        // What stands before an `@` is the password that it was given.
+        let host = uri.authority().map_or("", |of| of.as_str().rsplit('@').next().unwrap_or_default());
+        write!(f, "{}://{host}", uri.scheme_str().unwrap_or("http"))
     }
 }
 
