@@ -4,6 +4,7 @@ use motet_planner::inteliplan::exchange::{self, Exchange, NoDialogue};
 use motet_requests::RequestContext;
 use motet_syntax::{FileId, Severity, Source, Sources};
 use motet_tests::setup;
+use proptest::prelude::*;
 
 fn read(list: &str) -> Result<InterpretedPolicy, NoPolicy> {
     let (robot, scene) = (setup::robot("hsr"), setup::scene("kitchen"));
@@ -92,6 +93,138 @@ fn dialect_name_with_a_comma_is_one_name() {
     let loose =
         actions::read("pick can, red", "plan", &session, Some(&robot), &RequestContext::new(&scene)).unwrap();
     assert!(loose.policy.contains("pick(coke)"), "{}", loose.policy);
+}
+
+/// Ids that people give, and that have words of the dialect in them.
+#[test]
+fn dialect_id_with_a_preposition_is_one_id() {
+    let mut scene = setup::scene("kitchen");
+    let coke = scene.entities.get("coke").unwrap().clone();
+    for id in ["coke_in_drawer_1", "letter_to_user", "cup_on_sink"] {
+        let names = Vec::new();
+        scene
+            .entities
+            .insert(id.into(), motet_robots::scene::Entity { id: id.into(), names, ..coke.clone() });
+    }
+    let steps = "go(coke_in_drawer_1) pick(coke_in_drawer_1) place(coke_in_drawer_1, sink) go(letter_to_user) \
+                 pick(letter_to_user) handover(letter_to_user, user) pick(cup_on_sink) \
+                 place(cup_on_sink, counter)";
+    let (list, left_out, read) = through_the_dialect(steps, &scene);
+    assert!(left_out.is_empty(), "{left_out:?}");
+    let calls: Vec<&str> = read.lines().filter(|line| line.ends_with(')')).collect();
+    assert_eq!(calls.join(" "), steps, "{list}");
+}
+
+/// A policy of these steps as a list of actions, what the list leaves out, and the policy that is read from
+/// the list.
+fn through_the_dialect(steps: &str, scene: &motet_robots::scene::Scene) -> (String, Vec<String>, String) {
+    let robot = setup::robot("hsr");
+    let text = format!("policy p {{ {steps} }}");
+    let parsed = motet_syntax::read(&Source::new("p.motet", text.as_str()), FileId(0));
+    assert!(parsed.diagnostics.is_empty(), "{text}: {:?}", parsed.diagnostics);
+    let (list, left_out) = actions::write(parsed.file.policies().next().unwrap(), scene);
+    let (session, _) = setup::session(Some(&robot), Some(scene), &mut Sources::default());
+    let read = match actions::read(&list, "p", &session, Some(&robot), &RequestContext::new(scene)) {
+        Ok(read) => read.policy,
+        Err(NoPolicy::Empty) => String::new(),
+        Err(why) => panic!("{list:?} of {text}: {why}"),
+    };
+    (list, left_out, read)
+}
+
+/// The kitchen with another thing of an id and names, or the codes for which it is refused.
+fn kitchen_with(id: &str, names: &[String]) -> Result<motet_robots::scene::Scene, Vec<&'static str>> {
+    let mut json: serde_json::Value =
+        serde_json::from_str(motet_robots::builtin::scene_text("kitchen").unwrap().json).unwrap();
+    let all = json["entities"].as_array_mut().unwrap();
+    let mut thing = all.iter().find(|one| one["id"] == "coke").unwrap().clone();
+    (thing["id"], thing["names"]) = (id.into(), serde_json::json!(names));
+    all.push(thing);
+    let (scene, said) = motet_robots::scene::read(&Source::new("scene.json", json.to_string()), FileId(0));
+    let errors = said.iter().filter(|said| said.severity == Severity::Error);
+    let errors: Vec<&'static str> = errors.map(|said| said.code.0).collect();
+    scene.filter(|_| errors.is_empty()).ok_or(errors)
+}
+
+/// Pieces of names that a scene or a detector may give.
+const PIECES: &[&str] = &[
+    "mug",
+    "coke",
+    "user",
+    "home",
+    "2",
+    "1.",
+    "-",
+    "_",
+    " ",
+    "(",
+    ")",
+    "[",
+    "]",
+    "<robot>",
+    "</user>",
+    "'",
+    "\"",
+    ".",
+    "!",
+    "?",
+    "\u{2192}",
+    " on ",
+    "_in_",
+    " to ",
+    " from ",
+    " then ",
+    "and ",
+    "Mug",
+    "\u{130}",
+    "\u{df}",
+    "\u{fb01}",
+    "\u{ff4d}\u{ff55}\u{ff47}",
+    "m\u{fc}g",
+    "mu\u{308}g",
+    "\u{43c}ug",
+    ",",
+    ";",
+    "`",
+    "\n",
+    "\u{7}",
+    "\u{202e}",
+    "\u{200b}",
+    "# Request",
+    "```",
+    "back",
+    "open fridge_1",
+    ", open fridge_1",
+    "\u{1}3",
+];
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    /// Whatever a thing is called, an action about it is read back as the same one, or it is left out and told.
+    #[test]
+    fn dialect_hostile_names_stay_one_name(
+        ids in proptest::collection::vec(proptest::collection::vec(proptest::sample::select(PIECES), 1..5), 1..4),
+        names in proptest::collection::vec(proptest::collection::vec(proptest::sample::select(PIECES), 1..4), 1..4),
+    ) {
+        let called: Vec<String> = names.iter().map(|name| name.concat()).collect();
+        for id in ids.iter().map(|id| id.concat()) {
+            let Ok(scene) = kitchen_with(&id, &called).or_else(|_| kitchen_with(&id, &[])) else {
+                let why = kitchen_with(&id, &[]).unwrap_err();
+                prop_assert!(why.iter().all(|code| ["M0433", "M0434", "M0435"].contains(code)), "{id:?}: {why:?}");
+                continue;
+            };
+            let written = motet_syntax::print::identifier(&id).to_string();
+            for step in ["go(ID)", "pick(ID)", "place(ID, sink)", "handover(ID, user)", "inspect(ID)"] {
+                let step = step.replace("ID", &written);
+                let (list, left_out, read) = through_the_dialect(&step, &scene);
+                prop_assert_eq!(list.is_empty(), !left_out.is_empty(), "{:?} {:?}", list, left_out);
+                let calls: Vec<&str> = read.lines().filter(|line| line.ends_with(')')).collect();
+                let expected: &[&str] = if list.is_empty() { &[] } else { &[&step] };
+                prop_assert_eq!(calls, expected, "{:?}", list);
+            }
+        }
+    }
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! Lists of actions as policies, and policies as lists of actions.
 
+use std::collections::BTreeSet;
+
 use motet_compiler::Session;
 use motet_requests::RequestContext;
 use motet_robots::card::Robot;
@@ -112,8 +114,7 @@ pub fn read(
     if items.is_empty() {
         return Err(NoPolicy::Empty);
     }
-    let mut reader =
-        Reader { session, situation, held: situation.holding.clone(), at: None, warnings: Vec::new() };
+    let mut reader = Reader::new(Some(session), situation);
     let mut policy = format!("policy {}", print::identifier(name));
     if let Some(robot) = robot {
         policy.push_str(&format!(" for {}", print::identifier(&robot.name)));
@@ -129,14 +130,23 @@ pub fn read(
 
 /// State of reading a list.
 struct Reader<'a> {
-    session: &'a Session,
+    /// Session whose library has the primitives of the robot; `None` where all are taken to be there.
+    session: Option<&'a Session>,
     situation: &'a RequestContext<'a>,
+    /// Ids of the scene as they are written in a list.
+    ids: BTreeSet<String>,
     held: Option<SmolStr>,
     at: Option<SmolStr>,
     warnings: Vec<String>,
 }
 
-impl Reader<'_> {
+impl<'a> Reader<'a> {
+    fn new(session: Option<&'a Session>, situation: &'a RequestContext<'a>) -> Self {
+        let ids = situation.scene.entities.keys().map(SmolStr::as_str);
+        let ids = ids.chain([entities::USER, entities::START]).map(spelt).collect();
+        Self { session, situation, ids, held: situation.holding.clone(), at: None, warnings: Vec::new() }
+    }
+
     fn action(&mut self, number: usize, item: &str) -> Result<String, NoPolicy> {
         // `pick(coke)` is `pick coke`.
         let plain = item.replace(['(', ')', '_'], " ");
@@ -151,7 +161,8 @@ impl Reader<'_> {
         let Some((words, primitive, rest)) = found else {
             return Err(NoPolicy::Unknown { number, action: action() });
         };
-        if !self.session.library().signatures().any(|decl| decl.name.text == primitive) {
+        let has = |session: &Session| session.library().signatures().any(|decl| decl.name.text == primitive);
+        if !self.session.is_none_or(has) {
             return Err(NoPolicy::Lacking { number, action: action(), primitive });
         }
         let usual = written(primitive);
@@ -177,7 +188,8 @@ impl Reader<'_> {
             }
             primitives::PICK => {
                 let padded = format!(" {}", rest.replace(" from ", " at "));
-                let (what, place) = halves(&padded).unwrap_or((rest, ""));
+                let (what, place) =
+                    if self.ids.contains(rest) { None } else { self.halves(&padded) }.unwrap_or((rest, ""));
                 let what = self.thing(number, what, &[kinds::OBJECT])?;
                 let mut steps = String::new();
                 if !place.is_empty() {
@@ -207,7 +219,7 @@ impl Reader<'_> {
                 format!("place({}, {})", id(&what), id(&to))
             }
             primitives::HANDOVER => {
-                let (what, to) = halves(rest).unwrap_or((rest, ""));
+                let (what, to) = self.halves(rest).unwrap_or((rest, ""));
                 let what = self.held_or(number, what)?;
                 let to = match to {
                     "" | "me" | "you" | "person" | "the person" => SmolStr::new_static(entities::USER),
@@ -238,7 +250,7 @@ impl Reader<'_> {
     /// A search where the thing is taken to be, else on every surface.
     fn search(&mut self, number: usize, rest: &str) -> Result<String, String> {
         let padded = format!(" {rest}");
-        let (what, place) = halves(&padded).unwrap_or((rest, ""));
+        let (what, place) = self.halves(&padded).unwrap_or((rest, ""));
         if what.is_empty() {
             return Err("of what is not said".to_owned());
         }
@@ -265,7 +277,7 @@ impl Reader<'_> {
     fn placed(&mut self, number: usize, rest: &str) -> Result<(SmolStr, SmolStr), String> {
         const HOLDERS: &[&str] = &[kinds::SURFACE, kinds::CONTAINER, kinds::OBJECT];
         let padded = format!(" {rest}");
-        let (what, to) = halves(&padded).unwrap_or((rest, ""));
+        let (what, to) = self.halves(&padded).unwrap_or((rest, ""));
         let (what, to) = (what.trim(), to.trim());
         if !to.is_empty() {
             let to = self.thing(number, to, HOLDERS)?;
@@ -285,6 +297,22 @@ impl Reader<'_> {
             }
             (_, None) => Err("where to is not said".to_owned()),
         }
+    }
+
+    /// The two halves around a preposition between an object and a place: the first one with an id on both
+    /// sides, which may have prepositions in it, or else the first.
+    fn halves<'t>(&self, text: &'t str) -> Option<(&'t str, &'t str)> {
+        let all = BETWEEN.iter().flat_map(|between| text.match_indices(between));
+        let mut all: Vec<(usize, &str)> = all.collect();
+        all.sort_by_key(|(at, between)| (*at, std::cmp::Reverse(between.len())));
+        let split = |(at, between): &(usize, &str)| {
+            let (what, to) = (text.get(..*at)?, text.get(at + between.len()..)?);
+            Some((what.trim(), to.trim()))
+        };
+        let is_known = |half: &str| half.is_empty() || self.ids.contains(half);
+        let mut found = all.iter().filter_map(split);
+        let known = found.clone().find(|(what, to)| is_known(what) && self.ids.contains(*to));
+        known.or_else(|| found.next())
     }
 
     fn is_person(&self, id: &SmolStr) -> bool {
@@ -309,8 +337,7 @@ impl Reader<'_> {
         if let Some((id, _)) = number_of.and_then(|index| scene.entities.get_index(index)) {
             return if of_kind(id) { Ok(id.clone()) } else { Err(format!("`{id}` is of another kind")) };
         }
-        let spelt = |id: &SmolStr| id.to_lowercase().replace(['_', '(', ')'], " ").trim() == words;
-        if let Some(id) = scene.entities.keys().find(|id| of_kind(id) && spelt(id)) {
+        if let Some(id) = scene.entities.keys().find(|id| of_kind(id) && spelt(id) == words) {
             return Ok(id.clone());
         }
         if matches!(words, entities::USER | "me" | "the user") && kinds.contains(&kinds::PERSON) {
@@ -343,6 +370,12 @@ impl Reader<'_> {
     }
 }
 
+/// An id as a reader finds it in a list.
+fn spelt(id: &str) -> String {
+    let words = id.to_lowercase().replace(['_', '(', ')'], " ");
+    words.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
 /// An item with the names that its numbers stand for.
 fn shown(item: &str, scene: &Scene) -> String {
     let words = item.split(' ').map(|word| {
@@ -350,14 +383,6 @@ fn shown(item: &str, scene: &Scene) -> String {
         number.and_then(|index| scene.entities.get_index(index)).map_or(word, |(id, _)| id.as_str())
     });
     words.collect::<Vec<_>>().join(" ")
-}
-
-/// The two halves around the first preposition between an object and a place.
-fn halves(text: &str) -> Option<(&str, &str)> {
-    let found = BETWEEN.iter().filter_map(|between| Some((text.find(between)?, *between)));
-    let (_, between) = found.min_by_key(|(at, between)| (*at, std::cmp::Reverse(between.len())))?;
-    let (what, to) = text.split_once(between)?;
-    Some((what.trim(), to.trim()))
 }
 
 /// Angle to the left of `left`, `around`, `90 degrees to the right`, in degrees.
@@ -380,7 +405,9 @@ fn written(primitive: &str) -> &str {
 /// A policy as a list of actions, and the parts that the list leaves out: conditions, monitors, handlers.
 #[must_use]
 pub fn write(policy: &Policy, scene: &Scene) -> (String, Vec<String>) {
-    let mut writer = Writer { scene, actions: Vec::new(), left_out: Vec::new() };
+    let situation = RequestContext::new(scene);
+    let reader = Reader::new(None, &situation);
+    let mut writer = Writer { reader, scene, actions: Vec::new(), left_out: Vec::new() };
     if policy.keeps.is_empty() {
         writer.block(&policy.body);
     } else {
@@ -393,6 +420,8 @@ pub fn write(policy: &Policy, scene: &Scene) -> (String, Vec<String>) {
 }
 
 struct Writer<'a> {
+    /// Reader of what is written.
+    reader: Reader<'a>,
     scene: &'a Scene,
     actions: Vec<String>,
     left_out: Vec<String>,
@@ -442,7 +471,10 @@ impl Writer<'_> {
         if let (true, Some(ExprKind::List(places))) =
             (looks_there, call.call.args.get(1).map(|arg| &arg.value.kind))
         {
-            places.iter().for_each(|place| self.push(format!("go {}", self.arg(&place.kind))));
+            for place in places {
+                let meant = self.meant(primitives::GO, std::iter::once(&place.kind));
+                self.push(format!("go {}", self.arg(&place.kind)), meant);
+            }
             return;
         }
         let joined = match (name, args.as_slice()) {
@@ -454,16 +486,45 @@ impl Writer<'_> {
             (primitives::HANDOVER, [what, to]) => format!("{what} to {to}"),
             _ => args.join(" "),
         };
-        self.push(format!("{words} {joined}"));
+        let meant = self.meant(name, call.call.args.iter().map(|arg| &arg.value.kind));
+        self.push(format!("{words} {joined}"), meant);
     }
 
-    /// Adds an action. A list has no quotes: what would read as several actions, or as a part of the next
-    /// one, is left out.
-    fn push(&mut self, action: String) {
+    /// The call that an action has to be read as, where it is about things of the scene only.
+    fn meant<'e>(&self, name: &str, mut args: impl Iterator<Item = &'e ExprKind>) -> Option<String> {
+        let is_read = matches!(name, primitives::GO | primitives::PICK | primitives::PLACE)
+            || matches!(name, primitives::HANDOVER | primitives::OPEN | primitives::CLOSE)
+            || matches!(name, primitives::INSPECT | primitives::PUSH);
+        let things = args.by_ref().map(|arg| match arg {
+            ExprKind::Name(id) | ExprKind::Plain(id) => Some(id).filter(|id| self.is_thing(id)),
+            _ => None,
+        });
+        let things = things.map(|id| id.map(|id| print::identifier(id).to_string()));
+        let things: Vec<String> = things.collect::<Option<_>>().filter(|_| is_read)?;
+        Some(format!("{name}({})", things.join(", ")))
+    }
+
+    fn is_thing(&self, id: &str) -> bool {
+        matches!(id, entities::USER | entities::START) || self.scene.entities.contains_key(id)
+    }
+
+    /// Adds an action. A list has no quotes: what would read as several actions, as a part of the next one, or
+    /// as another action, is left out.
+    fn push(&mut self, action: String, meant: Option<String>) {
         let words = action.split_whitespace().collect::<Vec<_>>().join(" ");
-        let read = items(&format!("{words}, {END}"), self.scene);
-        match read.as_slice() {
-            [_, end] if end == END => self.actions.push(words),
+        let mut read = items(&format!("{words}, {END}"), self.scene);
+        if read.first().map(std::slice::from_ref) != Some(items(&words, self.scene).as_slice()) {
+            // At the end of a list it reads otherwise.
+            read.clear();
+        }
+        match (read.as_slice(), meant) {
+            ([_, end], None) if end == END => self.actions.push(words),
+            ([item, end], Some(meant)) if end == END && self.reader.action(1, item) == Ok(meant.clone()) => {
+                self.actions.push(words);
+            }
+            ([_, end], _) if end == END => {
+                self.left_out.push(format!("`{words}`, which reads as something else"));
+            }
             _ => self.left_out.push(format!("`{words}`, whose marks separate actions")),
         }
     }
