@@ -157,14 +157,23 @@ fn killed_at_any_moment_the_run_of_a_request_goes_on_as_if_nothing_had_been() {
     kill_and_resume("journal_do_crash", line, "/run_1", 1.4);
 }
 
+#[test]
+fn killed_at_any_moment_the_run_of_a_conversation_goes_on_as_if_nothing_had_been() {
+    let line = "talk --robot hsr --scene kitchen --no-geometry --profile ideal";
+    kill_and_resume("journal_talk_crash", line, "/run_1", 1.4);
+}
+
 /// Kills a recorded command at random moments of its time, so long as `longest` of it, and resumes the run,
 /// whose journal is in a folder of the record.
 fn kill_and_resume(name: &str, command: &str, inner: &str, longest: f64) {
-    let place = Place::new(name).file("good.motet", GOOD);
+    // Only a conversation reads them.
+    let lines = "bring me the coke\nwhat did you do?\n";
+    let place = Place::new(name).file("good.motet", GOOD).file("lines", lines);
     let begun = Instant::now();
-    place.run_args(&words(&format!("{command} --speed 60 --record whole"))).check(0, &[]);
+    let whole = run_and_kill(&place, &format!("{command} --speed 60 --record whole"), Duration::MAX);
     let span = begun.elapsed();
     let expected = deeds(&place.path(&format!("whole{inner}")));
+    assert!(!whole.0 && expected.len() > 5, "{expected:?}");
     let (mut kills, mut runs, mut dice) = (0, 0, SplitMix64::seed_from_u64(7));
     let mut late = 0;
     while kills < crashes() {
@@ -350,6 +359,41 @@ fn killed_host_of_a_driver_in_another_process_begins_nothing_twice_and_loses_not
     process.wait().unwrap();
 }
 
+/// The physics end with their host, so a run that is resumed begins in the room as it was at the start: what
+/// it had begun counts as lost, and it goes on or fails from there.
+#[test]
+fn killed_run_in_physics_begins_nothing_twice() {
+    let finds = Command::new("python3").args(["-c", "import mujoco, motet_mujoco"]).output();
+    if !finds.is_ok_and(|output| output.status.success()) {
+        println!("skipped: there are no physics");
+        return;
+    }
+    let place = Place::new("journal_physics_crash").file("good.motet", GOOD);
+    let line = "run good.motet --robot hsr --scene kitchen --driver mujoco --speed max --format json";
+    let begun = Instant::now();
+    let whole = run_and_kill(&place, &format!("{line} --record whole"), Duration::MAX);
+    assert!(!whole.0 && was_begun(&place, "whole"));
+    let (span, mut dice) = (begun.elapsed(), SplitMix64::seed_from_u64(17));
+    let (mut kills, mut runs, mut ended) = (0, 0, BTreeMap::<_, u32>::new());
+    while kills < crashes() {
+        runs += 1;
+        let folder = format!("run{runs}");
+        let delay = span.mul_f64((dice.next_u64() % 1_000) as f64 / 1_000.0);
+        let (was_killed, shown) = run_and_kill(&place, &format!("{line} --record {folder}"), delay);
+        kills += u64::from(was_killed);
+        if !was_begun(&place, &folder) {
+            assert_eq!(shown, 0, "nothing goes out before the head is written");
+            continue;
+        }
+        let ran = place.run(&format!("run --resume {folder} --driver mujoco --speed max"));
+        assert!(matches!(ran.code, Some(0 | 3)), "{ran:#?}");
+        *ended.entry(ran.code).or_default() += 1;
+        place.run(&format!("replay {folder}")).check(0, &["out:identical"]);
+        once_each(&place.path(&folder));
+    }
+    println!("{kills} kills in {runs} runs in physics, by their exit code: {ended:?}");
+}
+
 fn was_begun(place: &Place, folder: &str) -> bool {
     std::fs::read(journal(&place.path(folder))).is_ok_and(|bytes| bytes.contains(&b'\n'))
 }
@@ -361,11 +405,19 @@ fn run_and_kill(place: &Place, line: &str, delay: Duration) -> (bool, usize) {
     let mut child = Command::new(env!("CARGO_BIN_EXE_motet"))
         .args(words(line))
         .current_dir(place.path(""))
+        .stdin(if line.starts_with("talk") {
+            std::fs::File::open(place.path("lines")).unwrap().into()
+        } else {
+            Stdio::null()
+        })
         .stdout(std::fs::File::create(&shown).unwrap())
         .stderr(Stdio::null())
         .spawn()
         .unwrap();
-    std::thread::sleep(delay);
+    if delay == Duration::MAX {
+        child.wait().unwrap();
+    }
+    std::thread::sleep(if delay == Duration::MAX { Duration::ZERO } else { delay });
     let is_running = child.try_wait().unwrap().is_none();
     // SIGKILL: the process learns nothing of it.
     child.kill().unwrap();

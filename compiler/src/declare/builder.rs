@@ -170,14 +170,19 @@ fn kinds(library: &mut Library, declarations: &Declarations, diagnostics: &mut V
             let remedy = "choose a parent that does not descend from it".to_owned();
             diagnostics.push(BadDeclaration { span: parent.span, what, remedy }.into());
         } else {
-            let known = declarations.kinds.keys().map(SmolStr::as_str).take(MAX_DECLARATIONS);
-            let near = near(&parent.text, known);
+            let known = declarations.kinds.keys().map(SmolStr::as_str);
+            let near = near(&parent.text, known.take(candidates(diagnostics)));
             diagnostics.push(UnknownType { span: parent.span, name: parent.text.clone(), near }.into());
         }
         library.names.kinds.insert(decl.name.text.clone(), Kind(index(&library.kinds)));
         let (name, fields) = (decl.name.text.clone(), Default::default());
         library.kinds.push(KindDef { name, parent: Some(Kind::ROOT), fields });
     }
+}
+
+/// Number of names among which the nearest one is looked for: fewer once there are many mistakes.
+fn candidates(diagnostics: &[Diagnostic]) -> usize {
+    if diagnostics.len() < MAX_MISTAKES / 20 { MAX_DECLARATIONS } else { MAX_DECLARATIONS / 100 }
 }
 
 fn fields(library: &mut Library, declarations: &Declarations, diagnostics: &mut Vec<Diagnostic>) {
@@ -320,7 +325,8 @@ fn entities(
         let kind = match library.names.kinds.get(&decl.kind.text) {
             Some(kind) => *kind,
             None => {
-                let near = near(&decl.kind.text, library.kinds.iter().map(|def| def.name.as_str()));
+                let known = library.kinds.iter().map(|def| def.name.as_str());
+                let near = near(&decl.kind.text, known.take(candidates(diagnostics)));
                 diagnostics
                     .push(UnknownType { span: decl.kind.span, name: decl.kind.text.clone(), near }.into());
                 Kind::ROOT

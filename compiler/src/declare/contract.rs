@@ -135,12 +135,33 @@ fn literal(elaborator: &mut Elaborator<'_>, expr: &Expr) -> Option<crate::ir::Fa
     }
 }
 
+/// Most entries of each of the clauses `needs`, `makes` and `unsettles`.
+const MAX_ENTRIES: usize = 1_000;
+
+/// A clause without the entries that are too many.
+fn cut(mut clause: Clause) -> Clause {
+    if let Clause::Needs(all) | Clause::Makes(all) | Clause::Unsettles(all) = &mut clause {
+        all.truncate(MAX_ENTRIES);
+    }
+    clause
+}
+
 fn primitive(
     elaborator: &mut Elaborator<'_>,
     decl: &Arc<PrimitiveDecl>,
     robot: Option<&Robot>,
 ) -> PrimitiveDef {
     let name = decl.name.text.clone();
+    for clause in &decl.clauses {
+        let (Clause::Needs(all) | Clause::Makes(all) | Clause::Unsettles(all)) = clause else { continue };
+        if let Some(beyond) = all.get(MAX_ENTRIES) {
+            let (span, what) = (beyond.expr.span, "needs or effects of a primitive");
+            elaborator.report(LimitExceeded { span, what, limit: MAX_ENTRIES });
+            let cut = decl.clauses.iter().map(|clause| cut(clause.clone()));
+            let decl = PrimitiveDecl { clauses: cut.collect(), ..PrimitiveDecl::clone(decl) };
+            return primitive(elaborator, &Arc::new(decl), robot);
+        }
+    }
     let ranges = robot.and_then(|robot| robot.primitives.get(&name));
     let mut params: Vec<ParamDef> = Vec::with_capacity(decl.params.len());
     for (index, param) in decl.params.iter().enumerate() {

@@ -1,6 +1,6 @@
 //! Capabilities of the robot: its primitives, ranges and observations.
 
-use motet_syntax::ast::{EndKind, Policy, PrimitiveKind};
+use motet_syntax::ast::{EndKind, MAX_MISTAKES, Policy, PrimitiveKind};
 use motet_syntax::unit::{Dimension, Unit};
 use motet_syntax::{Diagnostic, Span};
 use rustc_hash::FxHashSet;
@@ -186,8 +186,14 @@ pub(super) fn check_descriptions(
             |step| if let StepKind::Each { item, .. } = &step.kind { Some(item.index()) } else { None },
         )
         .collect();
+    // So many of each are told.
+    let mut told = 0;
     for (index, binding) in program.bindings.iter().enumerate() {
+        if told == MAX_MISTAKES {
+            break;
+        }
         for span in binding.unused().filter(|_| !binding.name.starts_with('_')) {
+            told += 1;
             let of_each = items.contains(&index);
             diagnostics.push(Unused { span, name: binding.name.clone(), of_each }.into());
         }
@@ -195,7 +201,11 @@ pub(super) fn check_descriptions(
     if !environment.has_scene() {
         return;
     }
+    let first = diagnostics.len();
     for step in &program.steps {
+        if diagnostics.len() - first == MAX_MISTAKES {
+            break;
+        }
         let StepKind::Call(call) = &step.kind else { continue };
         let def = library.primitive(call.primitive);
         let Some(def) = def.filter(|def| def.form == PrimitiveKind::Perception) else { continue };

@@ -14,6 +14,8 @@ use crate::scene::{EntityShape, Placement, Scene};
 const NEEDED: [&str; 6] = ["image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh"];
 /// Greatest edge of a cell and greatest distance of the map's corner, in m.
 const FURTHEST_M: f64 = 1000.0;
+/// Number of wrong lines after which no more are read.
+const MAX_FINDINGS: usize = 100;
 
 /// Meaning of the grey values between both thresholds.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -116,13 +118,18 @@ impl<'t> Reader<'t> {
             at += whole.len();
             let line = without_comment(whole).trim();
             let span = Span::new(file, start.min(at), (start + line.len()).min(at));
+            if self.found.len() >= MAX_FINDINGS {
+                let problem =
+                    format!("more than {MAX_FINDINGS} lines are wrong; those from here on are not read");
+                return self.wrong(span, problem, None);
+            }
             if line.is_empty() || line == "---" || line == "..." || line.starts_with('%') {
                 continue;
             }
             // A list with one part on a line, under its key.
             if let Some(part) = line.strip_prefix("- ") {
                 match self.entries.last_mut() {
-                    Some(entry) if entry.values.iter().all(|value| !value.is_empty()) => {
+                    Some(entry) if entry.values.last().is_none_or(|value| !value.is_empty()) => {
                         entry.values.push(unquoted(part));
                     }
                     _ => self.wrong(span, format!("line {} is a part of no list", number + 1), None),
@@ -141,12 +148,13 @@ impl<'t> Reader<'t> {
                 None => vec![unquoted(value)],
             };
             let is_known = NEEDED.contains(&key) || key == "mode";
-            let near = suggest::closest(key, NEEDED.into_iter().chain(["mode"]));
+            let keys = NEEDED.into_iter().chain(["mode"]);
+            let near = if is_known { None } else { suggest::closest(key, keys) };
             match near {
                 _ if self.entries.iter().any(|entry| entry.key == key) => {
                     self.wrong(span, format!("`{}` is there twice", key.escape_debug()), None);
                 }
-                Some(near) if !is_known && !self.entries.iter().any(|entry| entry.key == near) => {
+                Some(near) if !self.entries.iter().any(|entry| entry.key == near) => {
                     self.wrong(span, format!("a map has no key `{}`", key.escape_debug()), Some(near));
                 }
                 _ if !is_known => {
