@@ -9,7 +9,7 @@ use motet_graph::Graph;
 use motet_host::remote::{DriverLog, LineFrom, RemoteDriver};
 use motet_runtime::conformance::{ConformanceSubject, check_perception, check_scenes};
 use motet_runtime::{
-    Command, Driver, DriverClock, DriverEvent, Effect, Engine, Event, GoalId, Pattern, Query, StartState,
+    Answer, Command, Driver, DriverClock, DriverEvent, Effect, Engine, Event, GoalId, Pattern, Query, StartState,
     Time,
 };
 use motet_stdlib::lang;
@@ -127,7 +127,8 @@ pub fn check(
     Ok(DriverResult { driver, broken })
 }
 
-/// First call of a policy, if it starts before anything is observed.
+/// First call of a policy. What the policy observes before it is answered with true, as by a robot in the state
+/// that the call needs.
 ///
 /// # Errors
 ///
@@ -135,13 +136,30 @@ pub fn check(
 pub fn first_call(graph: &Graph) -> Result<Command, String> {
     let mut engine = Engine::new(graph.clone(), &StartState::default())
         .map_err(|errors| format!("the graph is not valid: {errors:?}"))?;
-    let mut effects = Vec::new();
+    let (mut effects, mut asked) = (Vec::new(), Vec::new());
     engine.handle(Time::ZERO, Event::Begin, &mut effects);
-    let call = effects.into_iter().find_map(|effect| match effect {
-        Effect::Start { command, .. } => Some(Command::clone(&command)),
-        _ => None,
-    });
-    call.ok_or_else(|| "the policy does not begin with a call, or observes something before it".to_owned())
+    loop {
+        let mut news = Vec::new();
+        for effect in effects.drain(..) {
+            match effect {
+                Effect::Start { command, .. } => return Ok(Command::clone(&command)),
+                Effect::Observe { query } if !asked.contains(&query) => news.push(query),
+                _ => {}
+            }
+        }
+        if news.is_empty() {
+            break;
+        }
+        for query in news {
+            let answer = Event::Noticed { query: Query::clone(&query), answer: Answer::Truth(true) };
+            engine.handle(Time::ZERO, answer, &mut effects);
+            asked.push(query);
+        }
+    }
+    Err(match asked.last() {
+        None => "the policy does not begin with a call".to_owned(),
+        Some(query) => format!("the policy observes `{query}` before its first call, and it has to be false or a number"),
+    })
 }
 
 /// Something that every robot with a hand observes, without the name of an entity.

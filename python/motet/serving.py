@@ -25,7 +25,7 @@ def serve(driver: Driver, port: int | None = None, grace: float = 10.0) -> None:
     """Serves a driver on standard input and output until its host goes, or on a TCP port of this machine for ever.
 
     Port 0 takes a free one; the first line of the output names it. On a port the goals go on for `grace` seconds without a host.
-    Standard output belongs to the protocol: print to `sys.stderr`.
+    The protocol has standard input and output; what the driver prints goes to standard error.
     """
     try:
         if port is None:

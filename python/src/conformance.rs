@@ -11,7 +11,7 @@ use motet::run::{run_id, state_facts};
 use motet::runtime::Time;
 use pyo3::prelude::*;
 
-use crate::errors::{raised, wrong};
+use crate::errors::raised;
 use crate::findings::Findings;
 use crate::project::Project;
 
@@ -35,7 +35,8 @@ impl Project {
     ) -> PyResult<(Option<Scenes>, Findings)> {
         let (prepared, findings) = self.compile(py, name, document, policy)?;
         let Some(prepared) = prepared else { return Ok((None, findings)) };
-        let command = first_call(&prepared.graph).map_err(wrong)?;
+        let unusable = |why| raised(py, "InputError", (why, None::<String>, ""));
+        let command = first_call(&prepared.graph).map_err(unusable)?;
         let (mut scenes, mut interrupt) = (Scenes::new(), None);
         let checked = py.detach(|| {
             let mut connect = |log: Box<dyn DriverLog>| {
@@ -57,7 +58,7 @@ impl Project {
         if let Some(interrupt) = interrupt {
             return Err(interrupt);
         }
-        checked.map_err(|why| raised(py, "InputError", (why, None::<String>, "")))?;
+        checked.map_err(unusable)?;
         Ok((Some(scenes), findings))
     }
 }

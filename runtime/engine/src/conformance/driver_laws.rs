@@ -12,6 +12,10 @@ use smol_str::SmolStr;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
 
+/// Span after the acknowledgement in which an end may cross the call that holds the goal: what ends so soon
+/// cannot be held.
+const CROSSING: Time = Time::from_nanos(100_000_000);
+
 /// A driver to be checked, and what to check it with.
 pub struct ConformanceSubject<'a> {
     /// Makes a driver at time 0 that has done nothing.
@@ -124,7 +128,7 @@ fn stop(bench: &mut DriverBench, goal: GoalId, subject: &ConformanceSubject<'_>,
 /// Held, it keeps still, and then goes on.
 fn held(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) {
     let goal = bench.start(&subject.command);
-    if !bench.runs(goal, subject.patience) {
+    if !bench.runs(goal, subject.patience) || bench.until(CROSSING, |event| ends(event, goal)).is_some() {
         return;
     }
     bench.driver.hold(bench.now, goal);
@@ -161,7 +165,7 @@ fn stopped_while_held(bench: &mut DriverBench, subject: &ConformanceSubject<'_>)
 /// Starts a goal and holds it for a moment. None where it does not run.
 fn hold(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) -> Option<GoalId> {
     let goal = bench.start(&subject.command);
-    if !bench.runs(goal, subject.patience) {
+    if !bench.runs(goal, subject.patience) || bench.until(CROSSING, |event| ends(event, goal)).is_some() {
         return None;
     }
     bench.driver.hold(bench.now, goal);
