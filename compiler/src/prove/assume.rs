@@ -89,8 +89,8 @@ impl Prover<'_> {
         self.narrow(condition, outcome, cause, frame)
     }
 
-    /// As [`assume`](Self::assume), for the test of an `if`, which looks at the hands: what they held may have
-    /// dropped by itself.
+    /// As [`assume`](Self::assume), for the test of an `if`, which looks at the hands: what they held may
+    /// have dropped by itself.
     pub(super) fn assume_test(&mut self, id: StepId, condition: &Condition, outcome: Outcome) -> bool {
         let (here, cause, frame) = (self.state.facts.mark(), Cause::step(id), CallFrame::default());
         let held = self.held_in(condition);
@@ -146,8 +146,8 @@ impl Prover<'_> {
         is(items.holding).then_some(true).or_else(|| is(items.free).then_some(false))
     }
 
-    /// Makes unknown all that the steps have made which may have filled a hand: the thing may be anywhere, and
-    /// what was seen of one hand is known.
+    /// Makes unknown all that the steps have made which may have filled a hand: the thing may be anywhere,
+    /// and what was seen of one hand is known.
     fn drop_held(&mut self, held: &[Atom], seen: Atom, cause: Cause) {
         let program = self.program;
         let mut made = Vec::new();

@@ -9,6 +9,8 @@ use motet_sim::{Sim, SimOptions};
 use motet_syntax::{FileId, Source, Sources};
 use motet_tests::{examples, setup};
 
+use crate::soundness::{honest, requests, session_codes, verdicts};
+
 #[test]
 fn start_the_simulated_room_agrees_with_the_pose_of_the_base() {
     let mut counts = BTreeMap::<(String, bool), usize>::new();
@@ -93,4 +95,41 @@ fn start_a_step_that_lacks_its_drive_is_refused_with_the_drive() {
     assert!(refused.message.contains("does not hold at the start"), "{}", refused.message);
     let fix = refused.fix.as_ref().unwrap();
     assert!(fix.edits[0].text.starts_with("go(mug_1)"), "{fix:?}");
+}
+
+/// A test looks at what a hand holds: both its branches may be taken, and a guard behind it asks again.
+#[test]
+fn proofs_a_test_of_the_hand_may_find_that_something_dropped() {
+    for test in ["not holding(mug_1)", "free(hand)", "free(hand) and not near(user)"] {
+        let recovers = format!(
+            "policy p {{ go(mug_1) pick(mug_1) go(counter) if {test} {{ go(mug_1) pick(mug_1) go(counter) }} \
+             place(mug_1, counter) }}"
+        );
+        let found = session_codes(Some("kitchen"), &recovers);
+        assert!(!found.contains(&"M0501") && !found.contains(&"M0902"), "{test}: {found:?}");
+    }
+    // What was put down is not taken up by itself, and nobody moves what is on a table.
+    let steps = "go(mug_1) pick(mug_1) go(counter) place(mug_1, counter)";
+    for test in ["holding(mug_1)", "not free(hand)", "not on(mug_1, counter)"] {
+        let dead = format!("policy p {{ {steps} if {test} {{ say(\"x\") }} }}");
+        assert!(session_codes(Some("kitchen"), &dead).contains(&"M0902"), "{test}");
+    }
+    let take = "action take(o: Object)\n    needs not holding(o), not g(o)\n    makes holding(o), g(o)\n";
+    let policy =
+        |steps: &str| format!("{take}initially not holding(a), not g(a)\npolicy p {{ take(a) {steps} }}");
+    let tests = policy("if not holding(a) { take(a) }");
+    assert_eq!(verdicts("take", &tests), [Verdict::Proven, Verdict::Deferred]);
+    let starts = |policy: &str, see: &dyn Fn(&str) -> Option<bool>| {
+        let found = requests(policy, &mut |effect| honest(effect, |query| see(&query.to_string())));
+        found.iter().filter(|request| request.starts_with("start")).count()
+    };
+    assert_eq!(starts(&tests, &|_| Some(false)), 2);
+    // It was not dropped, nobody can tell, or what the first step made besides still holds.
+    assert_eq!(starts(&tests, &|_| Some(true)), 1);
+    assert_eq!(starts(&tests, &|_| None), 1);
+    assert_eq!(starts(&tests, &|query| Some(query == "g(a)")), 1);
+    // What the robot sees it has dropped it does not put away.
+    let puts = policy("if holding(a) { pass() }");
+    assert_eq!(starts(&puts, &|_| Some(false)), 1);
+    assert_eq!(starts(&puts, &|_| None), 2);
 }

@@ -14,8 +14,8 @@ pub(crate) enum Freshness {
     Readings(Time),
     /// Also a fact that can be observed counts only if it was seen after the observation of this number.
     Facts(Time, u64),
-    /// As [`Self::Readings`], and that a hand holds something counts only if it was seen after the observation
-    /// of this number: it may have dropped.
+    /// As [`Self::Readings`], and that a hand holds something counts only if it was seen after the
+    /// observation of this number: it may have dropped.
     Hands(Time, u64),
     /// As [`Self::Readings`], and no fact counts that was seen or changed after the observation or the effect
     /// of this number.

@@ -139,8 +139,8 @@ impl Turn<'_> {
         }
     }
 
-    /// Nobody will ever say that what is live stands still. Where nothing is, nobody will ever tell what steps
-    /// wait for.
+    /// Nobody will ever say that what is live stands still. Where nothing is, nobody will ever tell what
+    /// steps wait for.
     fn gone(&mut self) {
         let (live, revision) = (self.run.goals.live(), self.run.revision);
         let own = live.first().map(|(_, node)| (*node, revision));

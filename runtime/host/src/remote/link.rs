@@ -57,11 +57,12 @@ impl fmt::Display for LinkError {
                 write!(f, "the driver gave no sign of life for {:.1} s", span.as_secs_f64())
             }
             Self::Mute(span) => {
-                let secs = span.as_secs_f64();
                 write!(
                     f,
-                    "the driver answered its greeting, and then nothing for {secs:.1} s; it was told to do nothing"
-                )
+                    "the driver answered its greeting, and then nothing for {:.1} s",
+                    span.as_secs_f64()
+                )?;
+                f.write_str("; it was told to do nothing")
             }
             Self::Deaf => f.write_str("the driver does not take in what is said to it"),
             Self::Flood => {

@@ -508,8 +508,8 @@ impl Writer<'_> {
         matches!(id, entities::USER | entities::START) || self.scene.entities.contains_key(id)
     }
 
-    /// Adds an action. A list has no quotes: what would read as several actions, as a part of the next one, or
-    /// as another action, is left out.
+    /// Adds an action. A list has no quotes: what would read as several actions, as a part of the next one,
+    /// or as another action, is left out.
     fn push(&mut self, action: String, meant: Option<String>) {
         let words = action.split_whitespace().collect::<Vec<_>>().join(" ");
         let mut read = items(&format!("{words}, {END}"), self.scene);
