@@ -67,7 +67,7 @@ names! {
         MASS = "mass"
         WIDTH = "width"
     }
-    /// Fluents with a meaning for scenes, geometry, lints or guards.
+    /// Fluents with a meaning for scenes, geometry, lints, guards or drivers.
     fluents {
         AT = "at"
         CLEAR = "clear"
@@ -81,10 +81,11 @@ names! {
         ON = "on"
         OPEN = "open"
         REACHABLE = "reachable"
+        STANDING = "standing"
         VISIBLE = "visible"
         VISITED = "visited"
     }
-    /// Primitives with a meaning for dialogue, prompts and the list form of plans.
+    /// Primitives with a meaning for dialogue, prompts, drivers and the list form of plans.
     primitives {
         ASK = "ask"
         CHOOSE = "choose"
@@ -92,6 +93,7 @@ names! {
         DETECT = "detect"
         DETECT_ALL = "detect_all"
         GO = "go"
+        GO_TO_POSE = "go_to_pose"
         GRASP = "grasp"
         GROUND = "ground"
         HANDOVER = "handover"
@@ -102,6 +104,7 @@ names! {
         OPEN = "open"
         PICK = "pick"
         PLACE = "place"
+        PLACE_AT = "place_at"
         PUSH = "push"
         SAY = "say"
         SEARCH = "search"
@@ -109,9 +112,11 @@ names! {
         TURN = "turn"
         WAKE_UP = "wake_up"
     }
-    /// Measures with a meaning for lints.
+    /// Measures with a meaning for lints or drivers.
     measures {
+        BATTERY = "battery"
         DISTANCE = "distance"
+        FORCE = "force"
     }
     /// Failures that the compiler derives from guards, geometry and control flow, and those that a dialogue
     /// asks about.

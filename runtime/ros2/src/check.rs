@@ -8,16 +8,17 @@ use crate::plan::Card;
 use crate::robot::Robot;
 use motet_project::{Discard, Project, open_robot};
 use motet_robots::scene::Scene;
+use motet_stdlib::lang::{fluents, measures};
 use motet_syntax::Sources;
 use std::collections::BTreeMap;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-/// Facts that the driver believes by what its own goals did, and measures that follow from poses.
-const BELIEVED: [&str; 14] = [
-    "holding", "lifted", "free", "at", "on", "in", "open", "locked", "clear", "near", "visited", "visible",
-    "located", "distance",
-];
+/// True for facts that the driver believes by what its own goals did, and measures that follow from poses.
+fn is_believed(name: &str) -> bool {
+    let is_sensed = matches!(name, fluents::REACHABLE | fluents::STANDING);
+    fluents::ALL.contains(&name) && !is_sensed || name == measures::DISTANCE
+}
 
 /// Reads a scene.
 ///
@@ -231,7 +232,7 @@ fn check_observations<'a>(binding: &Binding, observed: impl Iterator<Item = &'a 
         let bound = binding.facts.get(*name).or_else(|| binding.measures.get(*name));
         match bound {
             Some(bound) => report.good(name, &format!("{} on {}", bound.value, bound.topic)),
-            None if BELIEVED.contains(name) => report.none(name, "by what the driver believes"),
+            None if is_believed(name) => report.none(name, "by what the driver believes"),
             None => report.none(name, "unknown"),
         }
     }

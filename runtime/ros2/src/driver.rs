@@ -17,6 +17,7 @@ use motet_host::remote::protocol::{
     Welcome,
 };
 use motet_runtime::{Answer, Capabilities, FailureReport, GoalId, Pattern, PrimitiveSet, Query};
+use motet_stdlib::lang::failures;
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -462,7 +463,7 @@ impl Driver {
             let goal = match self.robot.binding.steps(primitive) {
                 Some(steps) => Goal::Running(Box::new(Task::new(start.command.clone(), steps, called))),
                 None => {
-                    let kind = called.fails.first().map_or("refused", smol_str::SmolStr::as_str);
+                    let kind = called.fails.first().map_or(failures::REFUSED, smol_str::SmolStr::as_str);
                     let text = format!("the binding has no steps for `{primitive}`");
                     Goal::Refused(FailureReport { kind: kind.into(), text: Some(text.into()) })
                 }

@@ -22,6 +22,7 @@ use crossbeam_channel::{Receiver, TryRecvError};
 use motet_graph::{Value as Argument, Witness};
 use motet_host::remote::protocol::CalledPrimitive;
 use motet_runtime::{Command, FailureReport, Outcome};
+use motet_stdlib::lang::failures;
 use serde_json::Value;
 use std::collections::{BTreeSet, VecDeque};
 use std::sync::Arc;
@@ -219,7 +220,7 @@ impl Task {
         let kind = step
             .and_then(|step| step.fails.as_deref())
             .and_then(|kind| fails.iter().find(|own| *own == kind));
-        let kind = kind.or(fails.first()).cloned().unwrap_or_else(|| "failed".into());
+        let kind = kind.or(fails.first()).cloned().unwrap_or_else(|| failures::FAILED.into());
         FailureReport { kind, text: Some(text.into()) }
     }
 

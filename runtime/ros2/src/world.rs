@@ -7,6 +7,7 @@ use motet_graph::Value;
 use motet_host::remote::protocol::DetectedThing;
 use motet_robots::scene::{Placement, Scene, distance};
 use motet_runtime::{Pattern, Query};
+use motet_stdlib::lang::{entities, fluents, kinds, measures, primitives};
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::{Duration, Instant};
 
@@ -88,21 +89,23 @@ impl World {
         };
         let (object, on, to, what) = (entity("object"), entity("on"), entity("to"), entity("what"));
         match primitive {
-            "go" => {
+            primitives::GO => {
                 self.visited.extend(to.clone());
                 self.at = to.into_iter().collect();
             }
-            "go_to_pose" | "turn" => self.at.clear(),
-            "pick" | "grasp" => self.put(object, Place::Hand),
-            "place" | "place_at" => {
+            primitives::GO_TO_POSE | primitives::TURN => self.at.clear(),
+            primitives::PICK | primitives::GRASP => self.put(object, Place::Hand),
+            primitives::PLACE | primitives::PLACE_AT => {
                 let place = on.map_or(Place::Unknown, |on| {
                     let kind = self.scene.entities.get(on.as_str()).map(|entity| entity.kind.as_str());
-                    if kind == Some("Container") { Place::In(on) } else { Place::On(on) }
+                    if kind == Some(kinds::CONTAINER) { Place::In(on) } else { Place::On(on) }
                 });
                 self.put(object, place);
             }
-            "handover" => self.put(object, to.map_or(Place::Unknown, Place::At)),
-            "open" | "close" => what.iter().for_each(|what| self.moved(what, primitive == "open")),
+            primitives::HANDOVER => self.put(object, to.map_or(Place::Unknown, Place::At)),
+            primitives::OPEN | primitives::CLOSE => {
+                what.iter().for_each(|what| self.moved(what, primitive == primitives::OPEN))
+            }
             _ => {}
         }
     }
@@ -124,10 +127,13 @@ impl World {
 
     /// Takes in a failure or an interruption: what the goal handled may be anywhere.
     pub(crate) fn failed(&mut self, primitive: &str, args: &[(String, Value)]) {
-        if matches!(primitive, "go" | "go_to_pose" | "turn" | "search") {
+        if matches!(
+            primitive,
+            primitives::GO | primitives::GO_TO_POSE | primitives::TURN | primitives::SEARCH
+        ) {
             self.at.clear();
         }
-        if matches!(primitive, "open" | "close") {
+        if matches!(primitive, primitives::OPEN | primitives::CLOSE) {
             for (_, value) in args {
                 if let Value::Entity(id) = value {
                     self.open.remove(id.as_str());
@@ -137,7 +143,7 @@ impl World {
         for (_, value) in args {
             if let Value::Entity(id) = value
                 && self.places.get(id.as_str()) == Some(&Place::Hand)
-                && primitive != "go"
+                && primitive != primitives::GO
             {
                 self.places.insert(id.to_string(), Place::Unknown);
             }
@@ -184,7 +190,7 @@ impl World {
                 let patterns: Option<Vec<Option<&str>>> = args.iter().map(pattern).collect();
                 self.some(fluent, &patterns?, &mut Vec::new(), base).map(Value::Bool)
             }
-            Query::Measure { measure, args } if measure == "distance" => {
+            Query::Measure { measure, args } if measure == measures::DISTANCE => {
                 let Some(Value::Entity(id)) = args.first() else { return None };
                 self.distance(id, base?).map(Value::Number)
             }
@@ -226,7 +232,9 @@ impl World {
 
     fn is_sensible(&self, fluent: &str, args: &[&str]) -> bool {
         match (fluent, args) {
-            ("holding" | "lifted" | "at" | "on" | "in", [thing, ..]) => self.places.contains_key(*thing),
+            (fluents::HOLDING | fluents::LIFTED | fluents::AT | fluents::ON | fluents::IN, [thing, ..]) => {
+                self.places.contains_key(*thing)
+            }
             _ => true,
         }
     }
@@ -234,30 +242,30 @@ impl World {
     fn fact(&self, fluent: &str, args: &[&str], base: Option<[f64; 2]>) -> Option<bool> {
         let place = |thing: &str| self.places.get(thing);
         match (fluent, args) {
-            ("holding" | "lifted", [thing]) => place(thing).map(|place| *place == Place::Hand),
-            ("free", ["hand"]) => Some(self.held().is_none()),
-            ("at", ["robot", to]) => Some(self.at.contains(*to) || self.stands(to)),
-            ("at", [thing, to]) => match place(thing)? {
+            (fluents::HOLDING | fluents::LIFTED, [thing]) => place(thing).map(|place| *place == Place::Hand),
+            (fluents::FREE, ["hand"]) => Some(self.held().is_none()),
+            (fluents::AT, [entities::ROBOT, to]) => Some(self.at.contains(*to) || self.stands(to)),
+            (fluents::AT, [thing, to]) => match place(thing)? {
                 Place::Unknown => None,
                 Place::Hand => Some(false),
                 Place::On(at) | Place::In(at) | Place::At(at) => Some(at == to),
             },
-            ("on", [thing, to]) => match place(thing)? {
+            (fluents::ON, [thing, to]) => match place(thing)? {
                 Place::Unknown => None,
                 place => Some(*place == Place::On((*to).to_owned())),
             },
-            ("in", [thing, to]) => match place(thing)? {
+            (fluents::IN, [thing, to]) => match place(thing)? {
                 Place::Unknown => None,
                 place => Some(*place == Place::In((*to).to_owned())),
             },
-            ("open", [what]) => self.open.get(*what).copied(),
-            ("locked", [what]) => self.scene.entities.get(*what)?.locked,
-            ("clear", [what]) => {
+            (fluents::OPEN, [what]) => self.open.get(*what).copied(),
+            (fluents::LOCKED, [what]) => self.scene.entities.get(*what)?.locked,
+            (fluents::CLEAR, [what]) => {
                 Some(!self.places.values().any(|place| *place == Place::On((*what).to_owned())))
             }
-            ("near", [what]) => Some(self.distance(what, base?)? < NEAR),
-            ("visited", [what]) => Some(self.visited.contains(*what)),
-            ("visible" | "located", [what]) => {
+            (fluents::NEAR, [what]) => Some(self.distance(what, base?)? < NEAR),
+            (fluents::VISITED, [what]) => Some(self.visited.contains(*what)),
+            (fluents::VISIBLE | fluents::LOCATED, [what]) => {
                 self.seen.get(*what).is_some_and(|at| at.elapsed() < IN_VIEW).then_some(true)
             }
             _ => None,

@@ -3,6 +3,7 @@
 use crate::world::SimWorld;
 use motet_graph::{Pose, Value};
 use motet_runtime::Command;
+use motet_stdlib::lang::primitives;
 use smol_str::SmolStr;
 
 #[derive(Clone, PartialEq, Debug)]
@@ -57,16 +58,16 @@ impl SimCommand {
             Value::Case(_) | Value::Pose(_) | Value::List(_) => None,
         };
         Some(match command.primitive.as_str() {
-            "go" => Self::Go(entity("to")?),
-            "go_to_pose" => Self::GoToPose(pose(command.arg("to")?)?),
-            "turn" => Self::Turn(number(command.arg("by")?)?),
-            "home" => Self::Home,
-            "start_pose" => Self::StartPose,
-            "wake_up" => Self::WakeUp,
-            "pick" => Self::Pick(entity("object")?),
-            "grasp" => Self::Grasp(entity("object")?, command.arg("at").and_then(pose)),
-            "lift" => Self::Lift,
-            "place" => {
+            primitives::GO => Self::Go(entity("to")?),
+            primitives::GO_TO_POSE => Self::GoToPose(pose(command.arg("to")?)?),
+            primitives::TURN => Self::Turn(number(command.arg("by")?)?),
+            primitives::HOME => Self::Home,
+            primitives::START_POSE => Self::StartPose,
+            primitives::WAKE_UP => Self::WakeUp,
+            primitives::PICK => Self::Pick(entity("object")?),
+            primitives::GRASP => Self::Grasp(entity("object")?, command.arg("at").and_then(pose)),
+            primitives::LIFT => Self::Lift,
+            primitives::PLACE => {
                 let on = entity("on")?;
                 let other = |name: &str| entity(name).filter(|id| *id != on);
                 let rules = Placing {
@@ -77,26 +78,26 @@ impl SimCommand {
                 };
                 Self::Place(entity("object")?, on, rules)
             }
-            "place_at" => {
+            primitives::PLACE_AT => {
                 let rules = Placing { at: Some(pose(command.arg("at")?)?), ..Placing::default() };
                 Self::Place(entity("object")?, entity("on")?, rules)
             }
-            "handover" => Self::Handover(entity("object")?, entity("to")?),
-            "open" => Self::Open(entity("what")?),
-            "close" => Self::Close(entity("what")?),
-            "push" => Self::Push(entity("what")?),
-            "detect" => Self::Detect(text("what")?),
-            "detect_all" => Self::DetectAll(text("what")?),
-            "search" => Self::Search(
+            primitives::HANDOVER => Self::Handover(entity("object")?, entity("to")?),
+            primitives::OPEN => Self::Open(entity("what")?),
+            primitives::CLOSE => Self::Close(entity("what")?),
+            primitives::PUSH => Self::Push(entity("what")?),
+            primitives::DETECT => Self::Detect(text("what")?),
+            primitives::DETECT_ALL => Self::DetectAll(text("what")?),
+            primitives::SEARCH => Self::Search(
                 text("what")?,
                 ids(command.arg("around")?).or_else(|| Some(vec![entity("around")?]))?,
             ),
-            "locate" => Self::Locate(entity("object")?),
-            "ground" => Self::Ground(entity("object")?),
-            "inspect" => Self::Inspect(entity("what")?),
-            "say" => Self::Say(text("text")?),
-            "ask" => Self::Ask(text("question")?),
-            "choose" => Self::Choose(ids(command.arg("among")?)?),
+            primitives::LOCATE => Self::Locate(entity("object")?),
+            primitives::GROUND => Self::Ground(entity("object")?),
+            primitives::INSPECT => Self::Inspect(entity("what")?),
+            primitives::SAY => Self::Say(text("text")?),
+            primitives::ASK => Self::Ask(text("question")?),
+            primitives::CHOOSE => Self::Choose(ids(command.arg("among")?)?),
             _ => return None,
         })
     }

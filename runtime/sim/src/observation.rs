@@ -6,6 +6,7 @@ use indexmap::IndexMap;
 use motet_graph::Value;
 use motet_robots::scene::NEAR_M;
 use motet_runtime::{Answer, Pattern, Query};
+use motet_stdlib::lang::{entities, fluents, measures};
 use smol_str::SmolStr;
 
 /// Distance within which a thing is at a `Place`, in m.
@@ -77,14 +78,14 @@ impl SimWorld {
 
     fn standard(&self, fluent: &str, args: &[&str]) -> Option<bool> {
         match (fluent, args) {
-            ("free", [hand]) => self.hands.get(*hand).map(|grip| grip.holds.is_none()),
-            ("standing", ["robot"]) => Some(self.standing),
-            ("arm_home", ["robot"]) => Some(self.arm == ArmPose::Home),
-            ("arm_ready", ["robot"]) => Some(self.arm == ArmPose::Ready),
-            ("arm_carry", ["robot"]) => Some(self.arm == ArmPose::Carry),
-            ("at", ["robot", to]) => self.thing(to).map(|_| self.stands_at(to)),
+            (fluents::FREE, [hand]) => self.hands.get(*hand).map(|grip| grip.holds.is_none()),
+            (fluents::STANDING, [entities::ROBOT]) => Some(self.standing),
+            ("arm_home", [entities::ROBOT]) => Some(self.arm == ArmPose::Home),
+            ("arm_ready", [entities::ROBOT]) => Some(self.arm == ArmPose::Ready),
+            ("arm_carry", [entities::ROBOT]) => Some(self.arm == ArmPose::Carry),
+            (fluents::AT, [entities::ROBOT, to]) => self.thing(to).map(|_| self.stands_at(to)),
             (_, [id]) => self.state(fluent, id),
-            ("at" | "on" | "in", [id, to]) => self.relation(fluent, id, to),
+            (fluents::AT | fluents::ON | fluents::IN, [id, to]) => self.relation(fluent, id, to),
             (_, _) => None,
         }
     }
@@ -93,17 +94,17 @@ impl SimWorld {
     fn state(&self, fluent: &str, id: &str) -> Option<bool> {
         let thing = self.thing(id)?;
         match fluent {
-            "holding" => Some(self.holder(id).is_some()),
-            "lifted" => Some(self.is_lifted(id)),
-            "visible" => Some(self.is_visible(id)),
-            "located" => Some(thing.seen_at == Some(thing.body.xyz)),
-            "reachable" => Some(self.is_reachable(id)),
-            "near" => Some(self.distance(&thing.body) <= NEAR_M),
-            "open" => Some(thing.is_open()),
-            "locked" => Some(thing.door.is_some_and(|door| door.locked)),
-            "clear" => Some(!self.resting(id).any(|(_, other)| matches!(other.rest, Rest::On(_)))),
-            "standing" => (thing.role == Role::Person).then_some(true),
-            "visited" => Some(self.visited.contains(id)),
+            fluents::HOLDING => Some(self.holder(id).is_some()),
+            fluents::LIFTED => Some(self.is_lifted(id)),
+            fluents::VISIBLE => Some(self.is_visible(id)),
+            fluents::LOCATED => Some(thing.seen_at == Some(thing.body.xyz)),
+            fluents::REACHABLE => Some(self.is_reachable(id)),
+            fluents::NEAR => Some(self.distance(&thing.body) <= NEAR_M),
+            fluents::OPEN => Some(thing.is_open()),
+            fluents::LOCKED => Some(thing.door.is_some_and(|door| door.locked)),
+            fluents::CLEAR => Some(!self.resting(id).any(|(_, other)| matches!(other.rest, Rest::On(_)))),
+            fluents::STANDING => (thing.role == Role::Person).then_some(true),
+            fluents::VISITED => Some(self.visited.contains(id)),
             _ => None,
         }
     }
@@ -112,26 +113,26 @@ impl SimWorld {
         let thing = self.thing(id)?;
         // Nothing rests on the robot, in a hand, or on what is not in this world: each thing has its place.
         let Some(target) = self.thing(to) else {
-            return matches!(fluent, "on" | "in" | "at").then_some(false);
+            return matches!(fluent, fluents::ON | fluents::IN | fluents::AT).then_some(false);
         };
         let rests = thing.rest.support().is_some_and(|support| support == to);
         match fluent {
-            "on" => Some(rests && matches!(thing.rest, Rest::On(_))),
-            "in" => Some(rests && matches!(thing.rest, Rest::In(_))),
-            "at" if target.role == Role::Place => {
+            fluents::ON => Some(rests && matches!(thing.rest, Rest::On(_))),
+            fluents::IN => Some(rests && matches!(thing.rest, Rest::In(_))),
+            fluents::AT if target.role == Role::Place => {
                 let near = target.body.gap(thing.body.x(), thing.body.y()) <= AT_PLACE_M;
                 Some(id != to && near && !self.is_lifted(id))
             }
-            "at" => Some(rests),
+            fluents::AT => Some(rests),
             _ => None,
         }
     }
 
     fn measure(&self, measure: &str, args: &[Value]) -> Option<f64> {
         match (measure, args) {
-            ("distance", [to]) => self.thing(name_of(to)?).map(|thing| self.distance(&thing.body)),
-            ("battery", []) => Some(self.battery),
-            ("force", []) => {
+            (measures::DISTANCE, [to]) => self.thing(name_of(to)?).map(|thing| self.distance(&thing.body)),
+            (measures::BATTERY, []) => Some(self.battery),
+            (measures::FORCE, []) => {
                 let held = self.hands.values().filter(|grip| grip.lifted);
                 let held = held.filter_map(|grip| self.thing(grip.holds.as_deref()?));
                 Some(held.map(|thing| thing.mass_kg * GRAVITY).sum())
@@ -156,8 +157,12 @@ impl SimWorld {
 
     /// Notes that the robot has come to an entity, and with it to what that is at.
     pub(crate) fn visit(&mut self, to: &str) {
-        let at: Vec<_> =
-            self.things.keys().filter(|id| self.relation("at", to, id) == Some(true)).cloned().collect();
+        let at: Vec<_> = self
+            .things
+            .keys()
+            .filter(|id| self.relation(fluents::AT, to, id) == Some(true))
+            .cloned()
+            .collect();
         self.visited.extend(at);
         self.visited.insert(to.into());
     }

@@ -14,6 +14,7 @@ use motet_graph::Value;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_runtime::{Answer, Detection, DriverEvent, Pattern, Query, Time, Truth};
+use motet_stdlib::lang::fluents;
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::SeedableRng;
 use smol_str::SmolStr;
@@ -150,7 +151,7 @@ impl Sim {
     pub fn holds(&self, fluent: &str, args: &[&str]) -> Option<bool> {
         match (fluent, args) {
             // Knowledge is the robot's, and its truth the world's.
-            ("located", [id]) => {
+            (fluents::LOCATED, [id]) => {
                 let believed = self.belief.fact(fluent, args, &self.initial_facts)?;
                 let known = self.believed_position(id).zip(self.position(id));
                 Some(believed && known.is_some_and(|(one, other)| distance(one, other) <= KNOWN_M))
@@ -189,14 +190,19 @@ impl Sim {
         }
         self.feel();
         self.look_for(query);
-        let is_visibility = matches!(query, Query::Fact { fluent, .. } if fluent == "visible");
+        let is_visibility = matches!(query, Query::Fact { fluent, .. } if fluent == fluents::VISIBLE);
         let source = if is_visibility { &self.world } else { &self.belief };
         source.answer(query, &self.initial_facts)
     }
 
     /// Looks for what a query is about.
     fn look_for(&mut self, query: &Query) {
-        let is_felt = |name: &str| matches!(name, "free" | "holding" | "lifted" | "visited" | "standing");
+        let is_felt = |name: &str| {
+            matches!(
+                name,
+                fluents::FREE | fluents::HOLDING | fluents::LIFTED | fluents::VISITED | fluents::STANDING
+            )
+        };
         let named = |value: &Value| match value {
             Value::Entity(id) => Some(id.clone()),
             Value::Bool(_) | Value::Int(_) | Value::Number(_) | Value::Text(_) => None,

@@ -11,7 +11,7 @@ use indexmap::IndexMap;
 use motet_robots::card::Robot;
 use motet_robots::scene::{Entity, EntityShape, Placement, Scene};
 use motet_runtime::Time;
-use motet_stdlib::lang::kinds;
+use motet_stdlib::lang::{entities, fluents, kinds};
 use smol_str::SmolStr;
 use std::collections::BTreeSet;
 
@@ -270,20 +270,20 @@ impl SimWorld {
 
     fn make(&mut self, fluent: &str, args: &[&str], holds: bool) {
         match (fluent, args, holds) {
-            ("on", [id, support], true) => self.lay(id, support, Rest::On((*support).into())),
-            ("in", [id, container], true) => self.lay(id, container, Rest::In((*container).into())),
-            ("on" | "in", [id, _], false) => self.set_rest(id, Rest::Free),
-            ("holding", [id], true) => self.hold_at_start(&(*id).into()),
-            ("holding", [id], false) => self.slip(id),
-            ("open", [id], open) => self.set_open(id, open),
-            ("locked", [id], locked) => self.set_locked(id, locked),
-            ("standing", ["robot"], standing) => self.standing = standing,
-            ("at", ["robot", place], true) => {
+            (fluents::ON, [id, support], true) => self.lay(id, support, Rest::On((*support).into())),
+            (fluents::IN, [id, container], true) => self.lay(id, container, Rest::In((*container).into())),
+            (fluents::ON | fluents::IN, [id, _], false) => self.set_rest(id, Rest::Free),
+            (fluents::HOLDING, [id], true) => self.hold_at_start(&(*id).into()),
+            (fluents::HOLDING, [id], false) => self.slip(id),
+            (fluents::OPEN, [id], open) => self.set_open(id, open),
+            (fluents::LOCKED, [id], locked) => self.set_locked(id, locked),
+            (fluents::STANDING, [entities::ROBOT], standing) => self.standing = standing,
+            (fluents::AT, [entities::ROBOT, place], true) => {
                 if let Some(stance) = self.place_for(place) {
                     self.base = stance;
                 }
             }
-            ("visible", [id], visible) => {
+            (fluents::VISIBLE, [id], visible) => {
                 if let Some(thing) = self.things.get_mut(*id).filter(|thing| !thing.placed) {
                     thing.visible_at_start = Some(visible);
                 }

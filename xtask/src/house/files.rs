@@ -43,12 +43,12 @@ pub(super) fn tracked(root: &Path) -> Result<Vec<SourceFile>, String> {
 fn source_file(path: &str, text: &str) -> SourceFile {
     let lines: Vec<String> = text.lines().map(str::to_owned).collect();
     let is_test = path.split('/').any(|part| APART.contains(&part) || part == "tests.rs");
-    let tests = lines.windows(2).position(|pair| match pair {
-        [attribute, module] => {
-            attribute == "#[cfg(test)]" && module.starts_with("mod ") && module.ends_with('{')
-        }
-        _ => false,
-    });
+    // Attributes may stand between the two lines.
+    let begins_tests = |(at, line): (usize, &String)| {
+        let module = lines.iter().skip(at + 1).find(|line| !line.starts_with("#["));
+        line == "#[cfg(test)]" && module.is_some_and(|line| line.starts_with("mod ") && line.ends_with('{'))
+    };
+    let tests = lines.iter().enumerate().position(begins_tests);
     let source_lines = tests.unwrap_or(lines.len());
     SourceFile { path: path.to_owned(), lines, is_test, source_lines }
 }
@@ -89,7 +89,7 @@ mod tests {
 
     #[test]
     fn source_file_counts_lines_before_the_test_module() {
-        let file = source_file("a/src/b.rs", "fn a() {}\n\n#[cfg(test)]\nmod tests {\n}\n");
+        let file = source_file("a/src/b.rs", "fn a() {}\n\n#[cfg(test)]\n#[allow(x)]\nmod tests {\n}\n");
         assert_eq!((file.source_lines, file.is_test), (2, false));
         assert!(source_file("a/tests/b.rs", "").is_test);
     }

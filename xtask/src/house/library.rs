@@ -11,7 +11,7 @@ const DECLARES: [&str; 6] = ["kind", "fluent", "measure", "failure", "action", "
 
 /// Folders that may spell the names: the library itself, and the notations, whose keywords are partly the
 /// same words.
-const APART: [&str; 2] = ["stdlib/", "grammar/"];
+const APART: [&str; 4] = ["stdlib/", "grammar/", "robots/src/scene/", "robots/src/xacro/"];
 
 /// Names of kinds, fluents, measures, failures and primitives that the standard library declares.
 pub(super) fn declared(root: &Path) -> Result<BTreeSet<String>, String> {
@@ -33,7 +33,7 @@ fn name_of(line: &str) -> Option<&str> {
         .filter(|name| !name.is_empty())
 }
 
-/// String literals in source that are such a name.
+/// String literals in source that are such a name. A key of JSON is a word of its own.
 pub(super) fn spelled(files: &[SourceFile], names: &BTreeSet<String>) -> Measure {
     let mut places = Vec::new();
     for file in files.iter().filter(|file| is_source(file)) {
@@ -45,7 +45,12 @@ pub(super) fn spelled(files: &[SourceFile], names: &BTreeSet<String>) -> Measure
             if text.starts_with("//") || text.starts_with("#[") {
                 continue;
             }
-            let literals = text.split('"').skip(1).step_by(2).filter(|literal| names.contains(*literal));
+            let parts: Vec<&str> = text.split('"').collect();
+            let is_key = |behind: &str| behind.starts_with(':') && !behind.starts_with("::");
+            let literals = parts.windows(2).skip(1).step_by(2).filter_map(|pair| match pair {
+                [name, behind] if names.contains(*name) && !is_key(behind) => Some(*name),
+                _ => None,
+            });
             places.extend(literals.map(|name| format!("{}:{}: {name}", file.path, number + 1)));
         }
     }
@@ -66,7 +71,12 @@ mod tests {
 
     #[test]
     fn spelled_counts_whole_literals_of_source() {
-        let lines = ["let a = [\"holding\", \"a holding\"];", "// \"holding\"", "fn a() {}"];
+        let lines = [
+            "let a = [\"holding\", \"a holding\"];",
+            "// \"holding\"",
+            "json!({\"holding\": a})",
+            "fn a() {}",
+        ];
         let file = |path: &str, is_test| SourceFile {
             path: path.to_owned(),
             lines: lines.iter().map(|line| (*line).to_owned()).collect(),

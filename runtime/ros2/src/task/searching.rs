@@ -7,6 +7,7 @@ use crate::plan::written;
 use motet_graph::Value as Argument;
 use motet_host::remote::protocol::DetectedThing;
 use motet_runtime::FailureReport;
+use motet_stdlib::lang::failures;
 
 impl Task {
     /// True if the primitive gives everything that is found.
@@ -40,19 +41,23 @@ impl Task {
             }
             return is_late;
         }
-        let ambiguous = self.called.fails.iter().any(|kind| kind == "ambiguous");
+        let ambiguous = self.called.fails.iter().any(|kind| kind == failures::AMBIGUOUS);
         match found.as_slice() {
             [] if is_late && !self.elsewhere.is_empty() => {
                 self.look_elsewhere();
                 true
             }
             [] if is_late => {
-                self.end_in("not_found", format!("no detection is called {what}"), around);
+                self.end_in(failures::NOT_FOUND, format!("no detection is called {what}"), around);
                 true
             }
             [] => false,
             [_, _, ..] if ambiguous => {
-                self.end_in("ambiguous", format!("{} detections are called {what}", found.len()), around);
+                self.end_in(
+                    failures::AMBIGUOUS,
+                    format!("{} detections are called {what}", found.len()),
+                    around,
+                );
                 true
             }
             [id, ..] => {
