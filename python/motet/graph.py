@@ -97,7 +97,7 @@ class Graph:
 
 
 #: Parts of a node that say what it does, not what it asks.
-_DEEDS = frozenset(("effects", "unsettles", "motion", "leaves"))
+_EFFECT_KEYS = frozenset(("effects", "unsettles", "motion", "leaves"))
 
 
 def _asked(part: Any, graph: dict[str, Any], found: set[str]) -> None:
@@ -112,5 +112,5 @@ def _asked(part: Any, graph: dict[str, Any], found: set[str]) -> None:
             found.add(graph["fluents"][value["fluent"]]["name"])
         if key == "measure":
             found.add(graph["measures"][value[0]]["name"])
-        if key not in _DEEDS:
+        if key not in _EFFECT_KEYS:
             _asked(value, graph, found)

@@ -157,7 +157,7 @@ impl Graph {
                 .map_err(motet::Error::from)?;
             let (verifies, looks_every) = match driver.capabilities().clock {
                 DriverClock::Driver => (CheckMode::AtOnce, Time::NEVER),
-                DriverClock::Wall => (CheckMode::Beside, Time::from_secs(0.1)),
+                DriverClock::Wall => (CheckMode::Background, Time::from_secs(0.1)),
             };
             let plan = RunPlan {
                 opened,

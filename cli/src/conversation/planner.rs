@@ -47,7 +47,7 @@ pub(super) fn planner(
         // In virtual time a plan takes no time, so that every run is the same.
         return Ok(match speed.verifies() {
             CheckMode::AtOnce => Box::new(Builtin),
-            CheckMode::Beside => Box::new(BackgroundBuiltin::default()),
+            CheckMode::Background => Box::new(BackgroundBuiltin::default()),
         });
     }
     let client = client(flags)?;

@@ -115,7 +115,7 @@ impl Speed {
     pub(crate) const fn verifies(self) -> CheckMode {
         match self {
             Self::Max => CheckMode::AtOnce,
-            Self::Times(_) => CheckMode::Beside,
+            Self::Times(_) => CheckMode::Background,
         }
     }
 }

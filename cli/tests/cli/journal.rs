@@ -26,23 +26,23 @@ fn entries(folder: &Path) -> Vec<Value> {
 }
 
 /// Starts and ends with their times: what a robot would have done.
-fn deeds(folder: &Path) -> Vec<String> {
-    let mut deeds = Vec::new();
+fn driver_goals(folder: &Path) -> Vec<String> {
+    let mut driver_goals = Vec::new();
     for entry in entries(folder) {
         let step = &entry["step"];
         let (at, event) = (&step["at"], &step["event"]["driver"]);
         for what in ["acknowledged", "ended", "refused"] {
             if let Some(event) = event.get(what) {
-                deeds.push(format!("{at} {what} {event}"));
+                driver_goals.push(format!("{at} {what} {event}"));
             }
         }
         for effect in step["effects"].as_array().into_iter().flatten() {
             if let Some(start) = effect.get("start") {
-                deeds.push(format!("{at} start {start}"));
+                driver_goals.push(format!("{at} start {start}"));
             }
         }
     }
-    deeds
+    driver_goals
 }
 
 #[test]
@@ -79,7 +79,7 @@ fn motions_are_verified_also_after_a_resumption() {
     let begun = lines[..lines.len() / 2].concat();
     let place = place.file("cut/000000000000.journal", begun);
     place.run("run --resume cut --speed max").check(0, &["out:✓ inspection_round: done"]);
-    assert_eq!(deeds(&place.path("cut")), deeds(&place.path("whole")));
+    assert_eq!(driver_goals(&place.path("cut")), driver_goals(&place.path("whole")));
     let cut = std::fs::read_to_string(journal(&place.path("cut"))).unwrap();
     let verdicts =
         |text: &str| (text.matches("\"feasible\"").count(), text.matches("nobody is there").count());
@@ -172,7 +172,7 @@ fn kill_and_resume(name: &str, command: &str, inner: &str, longest: f64) {
     let begun = Instant::now();
     let whole = run_and_kill(&place, &format!("{command} --speed 60 --record whole"), Duration::MAX);
     let span = begun.elapsed();
-    let expected = deeds(&place.path(&format!("whole{inner}")));
+    let expected = driver_goals(&place.path(&format!("whole{inner}")));
     assert!(!whole.0 && expected.len() > 5, "{expected:?}");
     let (mut kills, mut runs, mut dice) = (0, 0, SplitMix64::seed_from_u64(7));
     let mut late = 0;
@@ -190,7 +190,8 @@ fn kill_and_resume(name: &str, command: &str, inner: &str, longest: f64) {
                 assert_eq!(shown, 0, "nothing goes out before the head is written");
                 break;
             }
-            let started = deeds(&place.path(&folder)).iter().filter(|deed| deed.contains(" start ")).count();
+            let started =
+                driver_goals(&place.path(&folder)).iter().filter(|goal| goal.contains(" start ")).count();
             assert!(started >= shown, "{shown} starts went out, {started} are in the journal");
             if !was_killed {
                 late += 1;
@@ -202,7 +203,7 @@ fn kill_and_resume(name: &str, command: &str, inner: &str, longest: f64) {
             continue;
         }
         place.run(&format!("run --resume {folder} --speed max")).check(0, &[]);
-        assert_eq!(deeds(&place.path(&folder)), expected, "{folder}: as without a crash");
+        assert_eq!(driver_goals(&place.path(&folder)), expected, "{folder}: as without a crash");
         place.run(&format!("replay {folder}")).check(0, &["out:identical"]);
         once_each(&place.path(&folder));
     }

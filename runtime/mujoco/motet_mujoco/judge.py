@@ -170,15 +170,15 @@ def pull(world, arguments, points, witness, share):
     if begun is None:
         return push_thing(world, container, points, share)
     error = np.zeros(2)
-    for deed, points in phases(points, world.model.grips):
-        if deed == "grip":
+    for phase, points in phases(points, world.model.grips):
+        if phase == "grip":
             close(world)
-        elif deed == "release":
+        elif phase == "release":
             open_hand(world)
         else:
             # A door is drawn slowly.
-            found = follow(world, points, share * (0.5 if deed == "draw" else 1.0))
-            error = np.maximum(error, found if deed == "move" else 0.0)
+            found = follow(world, points, share * (0.5 if phase == "draw" else 1.0))
+            error = np.maximum(error, found if phase == "move" else 0.0)
     wanted = 0.0 if begun > 0.5 else 1.0
     share_open = world.opening(container)
     return abs(share_open - wanted) < 0.2, "open by %.0f %%" % (share_open * 100.0), error
@@ -199,16 +199,16 @@ def put(world, arguments, points, witness, share):
     if not world.holds(thing):
         return False, "no grip at the start", np.zeros(2)
     error, parts = np.zeros(2), phases(points, world.model.grips, "draw")
-    for deed, part in parts:
-        if deed == "draw":
+    for phase, part in parts:
+        if phase == "draw":
             error = follow(world, part, share)
-        if deed == "release" or not any(other == "release" for other, _ in parts):
+        if phase == "release" or not any(other == "release" for other, _ in parts):
             if not world.holds(thing):
                 return False, "lost on the way", error
             open_hand(world)
-            if deed != "release":
+            if phase != "release":
                 draw_back(world)
-        if deed == "move":
+        if phase == "move":
             follow(world, part, share)
     world.wait(1.0)
     where = "in" if world.is_in(thing, support) else "on" if world.is_on(thing, support) else None

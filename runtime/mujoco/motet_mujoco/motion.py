@@ -200,25 +200,25 @@ def near_turn(angle, to):
     return angle + 2.0 * np.pi * round((to - angle) / (2.0 * np.pi))
 
 
-def phases(points, grips, deed="move"):
+def phases(points, grips, phase="move"):
     """The parts of a path between what its hand does: `move`, `grip`, `draw` with closed fingers, `release`."""
-    parts = [(deed, [points[0]])]
+    parts = [(phase, [points[0]])]
     for before, after in zip(points, points[1:]):
         point = np.array(after)
         further = sum(abs(after[at] - opened) - abs(before[at] - opened) for at, (opened, _) in grips.items())
-        if deed == "move" and further > 1e-6 and not any(part == "release" for part, _ in parts):
+        if phase == "move" and further > 1e-6 and not any(part == "release" for part, _ in parts):
             parts.append(("grip", []))
-            deed = "draw"
-        elif deed == "draw" and further < -1e-6:
+            phase = "draw"
+        elif phase == "draw" and further < -1e-6:
             parts.append(("release", []))
-            deed = "move"
-        if deed == "draw":
+            phase = "move"
+        if phase == "draw":
             for at, (_, closed) in grips.items():
                 point[at] = closed
         if parts[-1][0] in ("grip", "release"):
             start = parts[-2][1][-1].copy()
             start[list(grips)] = point[list(grips)]
-            parts.append((deed, [start]))
+            parts.append((phase, [start]))
         parts[-1][1].append(point)
     return parts
 

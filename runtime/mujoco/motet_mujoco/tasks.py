@@ -290,19 +290,19 @@ class Tasks(Mover):
             return
         path = self.motion(motion, "%s(%s)" % (query, quoted(what)))
         parts, drawn = phases(path.points, world.model.grips), None
-        for deed, part in parts:
-            if deed == "grip":
+        for phase, part in parts:
+            if phase == "grip":
                 yield from self.grip(True, 1.0)
-            elif deed == "release":
+            elif phase == "release":
                 yield from self.grip(False, 0.6)
             else:
-                share = motion.speed * (0.5 if deed == "draw" else 1.0)
-                if deed == "draw":
+                share = motion.speed * (0.5 if phase == "draw" else 1.0)
+                if phase == "draw":
                     drawn, watch = self.drawing(part)
                     yield from self.follow(self.path(part, share), watch=watch)
                     continue
                 yield from self.follow(self.path(part, share), what)
-        if not any(deed == "release" for deed, _ in parts) and any(deed == "grip" for deed, _ in parts):
+        if not any(phase == "release" for phase, _ in parts) and any(phase == "grip" for phase, _ in parts):
             yield from self.grip(False, 0.6)
             yield from self.straight(-0.08 * world.tip()[1][:, 2])
         far, whole = drawn or (1.0, 1.0)

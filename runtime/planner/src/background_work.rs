@@ -43,7 +43,7 @@ impl<T: Send + 'static> BackgroundWork<T> {
                 let _ = told.send(work());
                 None
             }
-            CheckMode::Beside => {
+            CheckMode::Background => {
                 std::thread::spawn(move || {
                     // Nobody may wait for it any more.
                     let _ = told.send(work());
@@ -101,23 +101,24 @@ mod tests {
     fn beside_work_is_coming_until_it_is_done() {
         let (go_on, gate) = mpsc::channel::<()>();
         let work = move || gate.recv().is_ok();
-        let beside = BackgroundWork::start(CheckMode::Beside, Duration::from_secs(60), work);
-        assert_eq!(beside.progress(), WorkProgress::Coming);
-        assert_eq!(beside.wait(|| true), WorkProgress::Coming, "a person stopped it");
+        let background = BackgroundWork::start(CheckMode::Background, Duration::from_secs(60), work);
+        assert_eq!(background.progress(), WorkProgress::Coming);
+        assert_eq!(background.wait(|| true), WorkProgress::Coming, "a person stopped it");
         go_on.send(()).unwrap();
-        assert_eq!(beside.wait(|| false), WorkProgress::Done(true));
+        assert_eq!(background.wait(|| false), WorkProgress::Done(true));
     }
 
     #[test]
     fn beside_work_that_takes_too_long_is_late() {
         let (_held, gate) = mpsc::channel::<()>();
-        let beside = BackgroundWork::start(CheckMode::Beside, Duration::ZERO, move || gate.recv().is_ok());
-        assert_eq!(beside.progress(), WorkProgress::Late);
+        let background =
+            BackgroundWork::start(CheckMode::Background, Duration::ZERO, move || gate.recv().is_ok());
+        assert_eq!(background.progress(), WorkProgress::Late);
     }
 
     #[test]
     fn beside_work_in_virtual_time_is_done_at_once() {
-        let beside = BackgroundWork::start(CheckMode::AtOnce, Duration::ZERO, || 7);
-        assert_eq!(beside.progress(), WorkProgress::Done(7));
+        let background = BackgroundWork::start(CheckMode::AtOnce, Duration::ZERO, || 7);
+        assert_eq!(background.progress(), WorkProgress::Done(7));
     }
 }

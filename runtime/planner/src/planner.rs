@@ -160,7 +160,7 @@ impl Planner for BackgroundBuiltin {
     fn begin(&mut self, ask: &PlanRequest<'_>) -> bool {
         let owned = OwnedRequest::of(ask);
         let plan = move || owned.with(|ask| Builtin.plan(ask).ok().map(|answered| answered.planned.text));
-        self.coming = Some(BackgroundWork::start(CheckMode::Beside, CHECK_WITHIN, plan));
+        self.coming = Some(BackgroundWork::start(CheckMode::Background, CHECK_WITHIN, plan));
         true
     }
 

@@ -25,7 +25,7 @@ enum Schedule {
     /// Searches inside the calls.
     AtOnce { tracker: RunTracker, verdicts: VecDeque<(CheckId, Verification)> },
     /// Thread that receives every event in order and ends with the last sender.
-    Beside { thread: Sender<GuardMessage>, verdicts: Receiver<(CheckId, Verification)>, awaited: usize },
+    Background { thread: Sender<GuardMessage>, verdicts: Receiver<(CheckId, Verification)>, awaited: usize },
 }
 
 /// Schedule of the motion searches in a run.
@@ -34,7 +34,7 @@ pub enum CheckMode {
     /// Search when a verdict is requested. In virtual time this takes no time, so every run is the same.
     AtOnce,
     /// Search on a thread of its own, so that neither a search nor the tracking of the scene delays the run.
-    Beside,
+    Background,
 }
 
 /// Message to the thread of the checks.
@@ -55,11 +55,11 @@ impl Guard {
                 let tracker = RunTracker { course, live: BTreeMap::new() };
                 Self(Schedule::AtOnce { tracker, verdicts: VecDeque::new() })
             }
-            CheckMode::Beside => Self::beside(course),
+            CheckMode::Background => Self::in_background(course),
         }
     }
 
-    fn beside(course: WorldTracker) -> Self {
+    fn in_background(course: WorldTracker) -> Self {
         let (thread, message) = mpsc::channel();
         let (answers, verdicts) = mpsc::channel();
         std::thread::spawn(move || {
@@ -72,7 +72,7 @@ impl Guard {
                 }
             }
         });
-        Self(Schedule::Beside { thread, verdicts, awaited: 0 })
+        Self(Schedule::Background { thread, verdicts, awaited: 0 })
     }
 
     /// Takes in things where they were seen, also those that the scene lacks.
@@ -85,7 +85,7 @@ impl Guard {
     fn tell(&mut self, message: GuardMessage) {
         match &mut self.0 {
             Schedule::AtOnce { tracker, verdicts } => verdicts.extend(tracker.hear(message)),
-            Schedule::Beside { thread, awaited, .. } => {
+            Schedule::Background { thread, awaited, .. } => {
                 *awaited += usize::from(matches!(message, GuardMessage::Asked(..)));
                 // A thread that is gone gives no verdicts; the engine does not wait for them for ever.
                 let _ = thread.send(message);
@@ -114,7 +114,7 @@ impl Verifier for Guard {
     fn verdict(&mut self) -> Option<(CheckId, Verification)> {
         match &mut self.0 {
             Schedule::AtOnce { verdicts, .. } => verdicts.pop_front(),
-            Schedule::Beside { verdicts, awaited, .. } => {
+            Schedule::Background { verdicts, awaited, .. } => {
                 let verdict = verdicts.try_recv();
                 match verdict {
                     Ok(_) => *awaited = awaited.saturating_sub(1),
@@ -129,7 +129,7 @@ impl Verifier for Guard {
     fn is_busy(&self) -> bool {
         match &self.0 {
             Schedule::AtOnce { .. } => false,
-            Schedule::Beside { awaited, .. } => *awaited > 0,
+            Schedule::Background { awaited, .. } => *awaited > 0,
         }
     }
 }

@@ -29,7 +29,7 @@ pub use meaning::{Aim, Certainty, Intent};
 pub use polarity::{
     Polarity, added, holds, is_wordless, polarity, proceeds, refuses, seeks, stops, withdrawn,
 };
-pub use question::{RoomQuestion, Topic, deed, is_question, question};
+pub use question::{RoomQuestion, Topic, is_question, question, step_done};
 
 /// A step that a request asks for by its name.
 #[derive(Clone, PartialEq, Eq, Debug)]

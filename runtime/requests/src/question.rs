@@ -4,7 +4,7 @@ use motet_robots::scene::Entity;
 use smol_str::SmolStr;
 
 use crate::engine::effort::bounded;
-use crate::engine::english::{DEEDS, PRONOUNS};
+use crate::engine::english::{PRONOUNS, STEPS_DONE};
 use crate::engine::rule::Rules;
 use crate::engine::token::{Token, tokens};
 use crate::{MAX_REQUEST, RequestContext, called, named};
@@ -31,7 +31,7 @@ pub enum Topic {
     /// Presence of a thing in the room: "is there a coke?"
     Existence,
     /// Steps so far: "what did you do?"
-    Deeds,
+    History,
     /// Steps that run: "what are you doing?"
     Activity,
     /// Things in view: "what do you see?"
@@ -105,7 +105,7 @@ fn read(text: &str) -> Option<(Topic, String, Option<String>)> {
         "placed" => Topic::Placed,
         "contents" => Topic::Contents,
         "existence" => Topic::Existence,
-        "deeds" => Topic::Deeds,
+        "history" => Topic::History,
         "activity" => Topic::Activity,
         "view" => Topic::View,
         _ => return None,
@@ -120,9 +120,9 @@ fn read(text: &str) -> Option<(Topic, String, Option<String>)> {
 /// Words for a step that was done: "picked up the coke" for `pick` with the coke. Arguments are ids of the
 /// scene or texts. Other primitives are said by their names.
 #[must_use]
-pub fn deed(primitive: &str, args: &[SmolStr], situation: &RequestContext<'_>) -> String {
+pub fn step_done(primitive: &str, args: &[SmolStr], situation: &RequestContext<'_>) -> String {
     let words = |id: &SmolStr| the(situation.scene.entities.get(id), id);
-    let Some(pattern) = DEEDS.value(&primitive.replace('_', " ")) else {
+    let Some(pattern) = STEPS_DONE.value(&primitive.replace('_', " ")) else {
         let args: Vec<String> = args.iter().map(words).collect();
         return format!("did `{primitive}` {}", args.join(", ")).trim_end().to_owned();
     };
@@ -149,7 +149,7 @@ fn the(entity: Option<&Entity>, id: &SmolStr) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{RoomQuestion, Topic, deed, is_question, question};
+    use super::{RoomQuestion, Topic, is_question, question, step_done};
     use crate::RequestContext;
 
     #[test]
@@ -175,8 +175,8 @@ mod tests {
             ("what is on the counter?", Topic::Contents, &[], Some("counter")),
             ("is there anything in the fridge?", Topic::Contents, &[], Some("fridge_1")),
             ("is there any coke?", Topic::Existence, &["coke"], None),
-            ("what did you do?", Topic::Deeds, &[], None),
-            ("What have you done so far?", Topic::Deeds, &[], None),
+            ("what did you do?", Topic::History, &[], None),
+            ("What have you done so far?", Topic::History, &[], None),
             ("what are you doing right now?", Topic::Activity, &[], None),
             ("what can you see?", Topic::View, &[], None),
         ] {
@@ -210,10 +210,10 @@ mod tests {
     }
 
     #[test]
-    fn deed_is_said_in_words() {
+    fn question_step_done_is_in_words() {
         let kitchen = motet_robots::builtin::scene("kitchen").unwrap();
         let situation = RequestContext::new(&kitchen);
-        let said = |primitive: &str, args: &[&str]| deed(primitive, &owned(args), &situation);
+        let said = |primitive: &str, args: &[&str]| step_done(primitive, &owned(args), &situation);
         assert_eq!(said("pick", &["coke"]), "picked up the coke can");
         assert_eq!(said("place", &["coke", "counter"]), "put the coke can on the kitchen counter");
         assert_eq!(said("handover", &["coke", "user"]), "handed the coke can to you");

@@ -36,7 +36,7 @@ impl Typist {
 
 impl DialogueObserver for Typist {
     fn verifies(&self) -> CheckMode {
-        CheckMode::Beside
+        CheckMode::Background
     }
 
     fn at_least_every(&self) -> Time {

@@ -190,7 +190,7 @@ fn failed(
     let name = primitive.map_or("do", |primitive| primitive.name.as_str());
     // A thing is put onto its place, whatever the failure is about.
     let onto = (name == primitives::PLACE).then(|| args().filter_map(entity).next_back()).flatten();
-    let doing = reason::deed(scene, name, onto.as_ref().or(about.as_ref()));
+    let doing = reason::action(scene, name, onto.as_ref().or(about.as_ref()));
     let why = why.map(|why| reason::in_words(why, scene));
     let (kind, question, options): (Kind, String, Vec<SmolStr>) = match kind {
         failures::NOT_FOUND => (

@@ -15,8 +15,8 @@ pub(super) struct Reason {
     pub(super) says: String,
 }
 
-/// Deeds by primitive, behind `I cannot`. `{thing}` stands for the last entity among the arguments.
-const DEEDS: &[(&str, &str)] = &[
+/// Actions by primitive, behind `I cannot`. `{thing}` stands for the last entity among the arguments.
+const ACTIONS: &[(&str, &str)] = &[
     (primitives::GO, "get to {thing}"),
     (primitives::PICK, "pick up {thing}"),
     (primitives::GRASP, "grasp {thing}"),
@@ -36,12 +36,12 @@ const DEEDS: &[(&str, &str)] = &[
     (primitives::WAKE_UP, "stand up"),
 ];
 
-/// A deed in words: `pick up the coke can`.
-pub(super) fn deed(scene: &Scene, primitive: &str, about: Option<&SmolStr>) -> String {
+/// An action in words: `pick up the coke can`.
+pub(super) fn action(scene: &Scene, primitive: &str, about: Option<&SmolStr>) -> String {
     let thing = about.map_or_else(|| "it".to_owned(), |id| named(scene, id));
     let kind = about.and_then(|id| scene.entities.get(id)).map(|entity| entity.kind.as_str());
     let at = if kind == Some(kinds::CONTAINER) { fluents::IN } else { fluents::ON };
-    match DEEDS.iter().find(|(known, _)| *known == primitive) {
+    match ACTIONS.iter().find(|(known, _)| *known == primitive) {
         Some((_, words)) => words.replace("{thing}", &thing).replace("{at}", at),
         None => format!("{} {thing}", primitive.replace('_', " ")),
     }
@@ -59,8 +59,8 @@ pub(super) fn refused(diagnostics: &[Diagnostic], scene: &Scene) -> Reason {
     if let Some(about) = &first.about
         && let (Some(primitive), Some(plain)) = (&about.primitive, &about.plain)
     {
-        let deed = deed(scene, primitive, about.entity.as_ref());
-        return Reason { about: about.entity.clone(), says: format!("I cannot {deed}: {plain}") };
+        let action = action(scene, primitive, about.entity.as_ref());
+        return Reason { about: about.entity.clone(), says: format!("I cannot {action}: {plain}") };
     }
     Reason { about: None, says: format!("I cannot do that: {}", in_words(&first.message, scene)) }
 }

@@ -2,7 +2,7 @@
 //! not say, from what the robot finds out when it looks.
 
 use motet_graph::Value;
-use motet_requests::{RequestContext, RoomQuestion, Topic, deed};
+use motet_requests::{RequestContext, RoomQuestion, Topic, step_done};
 use motet_robots::scene::{Entity, Scene};
 use motet_runtime::memory::{MemoryEvent, StepEnd};
 use motet_runtime::{Driver, Pattern, Query, Time, Truth};
@@ -18,7 +18,7 @@ use super::senses::{ask, sense};
 use crate::Planner;
 
 /// The most steps that an answer tells.
-const MOST_DEEDS: usize = 12;
+const MAX_STEPS: usize = 12;
 
 impl Conversation<'_> {
     /// Answers a question at the driver's time `from`. Returns the outcome, done where there is an answer,
@@ -107,7 +107,7 @@ impl Conversation<'_> {
             Topic::Location | Topic::Placed => Some(format!("find the {name}")),
             Topic::Open | Topic::Closed => Some(format!("go to the {name}")),
             Topic::Standing | Topic::Held | Topic::Holds | Topic::Contents | Topic::Existence => None,
-            Topic::Deeds | Topic::Activity | Topic::View => None,
+            Topic::History | Topic::Activity | Topic::View => None,
         }
     }
 
@@ -199,7 +199,7 @@ impl Conversation<'_> {
                     format!("Yes. {}", told.unwrap_or_else(|| "I do not know where it is.".to_owned()))
                 }
             }),
-            Topic::Deeds => Some(self.deeds()),
+            Topic::History => Some(self.history()),
             Topic::Activity => {
                 let doing: Vec<String> = self.memory.running().map(|step| step.call).collect();
                 let doing = doing.iter().map(|call| format!("`{call}`")).collect::<Vec<_>>();
@@ -246,21 +246,21 @@ impl Conversation<'_> {
     }
 
     /// Steps that were carried out, in words.
-    fn deeds(&self) -> String {
+    fn history(&self) -> String {
         let situation = RequestContext::new(&self.setting.scene);
-        let mut deeds = Vec::new();
+        let mut steps = Vec::new();
         for entry in self.memory.entries() {
             let MemoryEvent::Step { call, ended, .. } = &entry.what else { continue };
             let (primitive, args) = parts(call);
-            let said = deed(primitive, &args, &situation);
+            let said = step_done(primitive, &args, &situation);
             match ended {
-                StepEnd::Success(_) => deeds.push(said),
-                StepEnd::Failure { kind, .. } => deeds.push(format!("tried `{call}`, which failed ({kind})")),
-                StepEnd::Interrupted(_) => deeds.push(format!("began `{call}`")),
+                StepEnd::Success(_) => steps.push(said),
+                StepEnd::Failure { kind, .. } => steps.push(format!("tried `{call}`, which failed ({kind})")),
+                StepEnd::Interrupted(_) => steps.push(format!("began `{call}`")),
             }
         }
-        let left_out = deeds.len().saturating_sub(MOST_DEEDS);
-        let mut latest = deeds.split_off(left_out);
+        let left_out = steps.len().saturating_sub(MAX_STEPS);
+        let mut latest = steps.split_off(left_out);
         match latest.pop() {
             None => "I have done nothing yet.".to_owned(),
             Some(only) if latest.is_empty() => format!("I {only}."),
@@ -309,6 +309,6 @@ fn unknown(question: &RoomQuestion) -> String {
         Topic::Location | Topic::Placed => format!("I do not know where the {said} is."),
         Topic::Open | Topic::Closed => format!("I do not know if the {said} is open."),
         Topic::Held | Topic::Holds | Topic::Contents | Topic::Existence => "I do not know.".to_owned(),
-        Topic::Deeds | Topic::Activity | Topic::View => "I do not know.".to_owned(),
+        Topic::History | Topic::Activity | Topic::View => "I do not know.".to_owned(),
     }
 }

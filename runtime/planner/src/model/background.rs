@@ -97,7 +97,7 @@ impl PendingRest {
 enum RestReader {
     AtOnce(Box<StreamReader<'static>>, Option<RestProgress>),
     /// Thread that reads the pieces and ends with the last sender.
-    Beside {
+    Background {
         pieces: Option<Sender<String>>,
         verdicts: Receiver<RestProgress>,
     },
@@ -107,7 +107,7 @@ impl RestReader {
     fn new(mut reading: StreamReader<'static>, mode: CheckMode) -> Self {
         match mode {
             CheckMode::AtOnce => Self::AtOnce(Box::new(reading), None),
-            CheckMode::Beside => {
+            CheckMode::Background => {
                 let (pieces, written) = mpsc::channel::<String>();
                 let (told, verdicts) = mpsc::channel();
                 std::thread::spawn(move || {
@@ -115,7 +115,7 @@ impl RestReader {
                     // Nobody may wait for it any more.
                     let _ = told.send(over.unwrap_or_else(|| RestProgress::Whole(whole(&reading))));
                 });
-                Self::Beside { pieces: Some(pieces), verdicts }
+                Self::Background { pieces: Some(pieces), verdicts }
             }
         }
     }
@@ -126,7 +126,7 @@ impl RestReader {
                 let read = read_on(reading, piece);
                 *over = over.take().or(read);
             }
-            Self::Beside { pieces, .. } => {
+            Self::Background { pieces, .. } => {
                 // A thread that has read enough takes no more.
                 let _ = pieces.as_ref().map(|pieces| pieces.send(piece.to_owned()));
             }
@@ -139,7 +139,7 @@ impl RestReader {
             Self::AtOnce(reading, over) => {
                 over.get_or_insert_with(|| RestProgress::Whole(whole(reading)));
             }
-            Self::Beside { pieces, .. } => *pieces = None,
+            Self::Background { pieces, .. } => *pieces = None,
         }
     }
 
@@ -147,7 +147,7 @@ impl RestReader {
     fn verdict(&mut self, wait: Duration) -> Option<RestProgress> {
         match self {
             Self::AtOnce(_, over) => over.take(),
-            Self::Beside { verdicts, .. } => verdicts.recv_timeout(wait).ok(),
+            Self::Background { verdicts, .. } => verdicts.recv_timeout(wait).ok(),
         }
     }
 }

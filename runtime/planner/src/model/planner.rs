@@ -252,7 +252,7 @@ impl<'m> ModelPlanner<'m> {
             };
             (verdict, missed)
         };
-        let check = BackgroundWork::start(CheckMode::Beside, CHECK_WITHIN, check);
+        let check = BackgroundWork::start(CheckMode::Background, CHECK_WITHIN, check);
         let (verdict, missed) = match check.wait(|| self.listener.is_stopped()) {
             WorkProgress::Done(checked) => checked,
             WorkProgress::Coming => return self.failed(round, reply, ModelError::Cancelled),

@@ -158,7 +158,7 @@ fn runtime_check_of_a_feasible_motion_lets_the_step_run() {
 #[test]
 fn runtime_check_beside_the_run_gives_the_same_verdicts() {
     for scene in [walled(), kitchen()] {
-        let (end, told) = play_with(&scene, CHOSEN, CheckMode::Beside);
+        let (end, told) = play_with(&scene, CHOSEN, CheckMode::Background);
         assert!(matches!(end, RunEnd::Done { .. }), "{end:?}, {told:#?}");
         assert_eq!(told, play(&scene, CHOSEN).1);
     }
@@ -166,7 +166,7 @@ fn runtime_check_beside_the_run_gives_the_same_verdicts() {
 
 #[test]
 fn runtime_check_follows_what_was_seen() {
-    for verifies in [CheckMode::AtOnce, CheckMode::Beside] {
+    for verifies in [CheckMode::AtOnce, CheckMode::Background] {
         // Behind the walls by the scene, and seen in front of them.
         let mug = walled().entities["mug_1"].clone();
         let floor = Placement { xyz: [0.2, -1.2, 0.05], rpy: [0.0; 3] };
