@@ -236,12 +236,6 @@ impl IncrementalChecker {
         id.is_some() && !outcome.refuted
     }
 
-    /// Returns whether the policy may end after its last step: its goal is not refuted there.
-    pub fn permits_end(&mut self, session: &Session) -> bool {
-        self.leave();
-        self.permits_done(session)
-    }
-
     /// Moves to the program point of the next step: after the body, or at the step with the span
     /// [`PROGRAM_POINT`] inside `step`, which follows the body and is closed for the time being. Later
     /// questions are about this point. Returns false if `step` has an error.

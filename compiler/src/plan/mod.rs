@@ -183,8 +183,8 @@ impl Agenda {
         }
     }
 
-    /// Closes containers that the plan opened, unless a goal mentions them or would be lost. What is in the hand
-    /// at the end stays in it: to put it down and to find it again risks more than a container that is open.
+    /// Closes containers that the plan opened, unless a goal mentions them or would be lost. A thing in the
+    /// hand stays in it: to put it down and to find it again risks more than a container that is open.
     fn tidy(&mut self, prover: &mut Prover<'_>, mut kept: Vec<Condition>, index: usize) {
         let Some(open) = prover.library.lang_items.open else { return };
         search::replay(prover, &self.calls);

@@ -56,16 +56,22 @@ pub(super) fn ebnf(grammar: &Grammar) -> EbnfGrammar {
 
 /// Position of a part in the nesting of blocks.
 #[derive(Clone, Copy)]
-struct Level {
+pub(super) struct Level {
     /// Number of block levels that may still nest in the steps here.
-    depth: usize,
-    in_goal: bool,
-    in_cleanup: bool,
+    pub(super) depth: usize,
+    pub(super) in_goal: bool,
+    pub(super) in_cleanup: bool,
 }
 
 impl Level {
-    fn of_policy(grammar: &Grammar) -> Self {
+    pub(super) fn of_policy(grammar: &Grammar) -> Self {
         Self { depth: grammar.subset.depth, in_goal: false, in_cleanup: false }
+    }
+
+    /// The level of a cleanup of what stands at this one.
+    pub(super) fn of_cleanup(self) -> Option<Self> {
+        let depth = self.depth.checked_sub(1).filter(|_| !self.in_cleanup)?;
+        Some(Self { depth, in_cleanup: true, ..self })
     }
 }
 
@@ -262,8 +268,7 @@ impl Deriver<'_> {
 
     /// The cleanup of a step or of the policy, or none.
     fn cleanup(&mut self, of: CleanupOf, level: Level, found: &mut Vec<Expr>) {
-        let depth = level.depth.checked_sub(1).filter(|_| !level.in_cleanup);
-        let block = depth.map(|depth| self.block(Level { depth, in_cleanup: true, ..level }, 1));
+        let block = level.of_cleanup().map(|level| self.block(level, 1));
         match (of, self.is_json) {
             (CleanupOf::Policy, true) => {
                 self.literal(",\"finally\":", found);
@@ -274,12 +279,12 @@ impl Deriver<'_> {
                 let lead = Expr::literal(",\"finally\":");
                 found.extend(block.map(|block| Expr::Seq(vec![lead, block]).optional()));
             }
-            (CleanupOf::Step | CleanupOf::Policy, false) => {
+            (CleanupOf::Step | CleanupOf::Policy, false) => found.extend(block.map(|block| {
                 let mut some = Vec::new();
                 self.literal(" finally ", &mut some);
-                some.extend(block);
-                found.extend(depth.map(|_| Expr::Seq(some).optional()));
-            }
+                some.push(block);
+                Expr::Seq(some).optional()
+            })),
         }
     }
 

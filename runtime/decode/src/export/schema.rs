@@ -9,6 +9,7 @@ use rustc_hash::FxHashMap;
 use serde_json::{Map, Value, json};
 use smol_str::SmolStr;
 
+use super::derive::Level;
 use super::terminal::{TEXT_FIELDS, TEXT_TERMS};
 use crate::grammar::{
     Alternative, BlockRole, CleanupOf, ConditionUse, Grammar, NodeKind, Part, Relation, ValueSet,
@@ -36,25 +37,6 @@ pub(super) fn schema(grammar: &Grammar) -> Value {
         root.insert("$defs".to_owned(), Value::Object(deriver.defs));
     }
     root
-}
-
-#[derive(Clone, Copy)]
-struct Level {
-    depth: usize,
-    in_goal: bool,
-    in_cleanup: bool,
-}
-
-impl Level {
-    fn of_policy(grammar: &Grammar) -> Self {
-        Self { depth: grammar.subset.depth, in_goal: false, in_cleanup: false }
-    }
-
-    /// The level of a cleanup of what stands at this one.
-    fn of_cleanup(self) -> Option<Self> {
-        let depth = self.depth.checked_sub(1).filter(|_| !self.in_cleanup)?;
-        Some(Self { depth, in_cleanup: true, ..self })
-    }
 }
 
 struct Deriver<'g> {
