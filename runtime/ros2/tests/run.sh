@@ -16,11 +16,10 @@ if [ ! -x "$venv/bin/pytest" ]; then
     python3 -m venv "$venv"
     "$venv/bin/pip" install --quiet -r requirements.txt || { rm -r "$venv"; echo 'the Python packages cannot be installed: skipped'; exit 0; }
 fi
-# The package stands outside the workspace, and has its own folder of builds.
-CARGO_TARGET_DIR="$target/ros2" cargo build --locked --quiet --manifest-path "$root/runtime/ros2/Cargo.toml"
-export MOTET_ROS2="$target/ros2/debug/motet-ros2"
+CARGO_TARGET_DIR="$target" cargo build --locked --quiet --manifest-path "$root/runtime/ros2/Cargo.toml"
+export MOTET_ROS2="$target/debug/motet-ros2"
 # `--driver ros2:…` finds the driver in PATH.
-export PATH="$venv/bin:$target/ros2/debug:$PATH" PYTHONPATH="$root/runtime/mujoco:."
+export PATH="$venv/bin:$target/debug:$PATH" PYTHONPATH="$root/runtime/mujoco:."
 pytest=("$venv/bin/python" -m pytest -p no:cacheprovider -q -rs)
 case "$which" in
     quick) ./netns.sh "${pytest[@]}" test_driver.py test_steps.py test_layouts.py test_tasks.py ;;
