@@ -116,26 +116,53 @@ fn resolved(name: &str, (library, environment): (&Library, &Environment)) -> Opt
 
 /// Needs of the first calls that no call before them changes; their parameters are those of the policy.
 fn heads(program: &Program, library: &Library) -> Vec<NeedDef> {
-    let mut heads = Vec::new();
-    let mut changed = 0;
-    let body = program.steps.first().map(|step| &step.kind);
-    let Some(StepKind::Inline { body, .. }) = body else { return heads };
-    for step in body.iter().filter_map(|id| program.step(*id)) {
-        let StepKind::Call(call) = &step.kind else { break };
-        let Some(def) = library.primitive(call.primitive) else { break };
-        let substitution = Substitution { args: &call.args, first_step: 0, first_binding: 0 };
-        for need in def.needs.iter().filter(|need| of_need(need) & changed == 0) {
-            let mut need = need.clone();
-            substitution.condition(&mut need.condition);
-            need.when.iter_mut().for_each(|when| substitution.condition(when));
-            let binds = |condition: &Condition| condition.any_term(&|term| matches!(term, Term::Binding(_)));
-            if !binds(&need.condition) && !need.when.as_ref().is_some_and(binds) {
-                heads.push(need);
-            }
-        }
-        changed |= of_effects(def, library);
+    let (mut heads, mut changed) = (Vec::new(), 0);
+    let first = program.steps.first().map(|step| &step.kind);
+    if let Some(StepKind::Inline { body, .. }) = first {
+        heads_of(body, (program, library), &mut changed, &mut heads);
     }
     heads
+}
+
+/// Adds the needs of a block, up to the first step that may not be reached, or behind which one may know
+/// more. Returns false if there is such a step.
+fn heads_of(
+    block: &[StepId],
+    given: (&Program, &Library),
+    changed: &mut u64,
+    heads: &mut Vec<NeedDef>,
+) -> bool {
+    let (program, library) = given;
+    block.iter().all(|id| match program.step(*id).map(|step| &step.kind) {
+        Some(StepKind::Call(call)) => {
+            let Some(def) = library.primitive(call.primitive).filter(|_| !call.is_faulty) else {
+                return false;
+            };
+            let substitution = Substitution { args: &call.args, first_step: 0, first_binding: 0 };
+            for need in def.needs.iter().filter(|need| of_need(need) & *changed == 0) {
+                let mut need = need.clone();
+                substitution.condition(&mut need.condition);
+                need.when.iter_mut().for_each(|when| substitution.condition(when));
+                let binds =
+                    |condition: &Condition| condition.any_term(&|term| matches!(term, Term::Binding(_)));
+                if !binds(&need.condition) && !need.when.as_ref().is_some_and(binds) {
+                    heads.push(need);
+                }
+            }
+            *changed |= of_effects(def, library);
+            true
+        }
+        Some(StepKind::Inline { body, .. } | StepKind::Sequence { body, .. }) => {
+            heads_of(body, given, changed, heads)
+        }
+        // A loop runs its body at least once, as far as a proof knows.
+        Some(StepKind::Each { body, .. } | StepKind::Repeat { body, .. }) => {
+            heads_of(body, given, changed, heads);
+            false
+        }
+        Some(StepKind::Let { .. } | StepKind::Delay { .. }) => true,
+        _ => false,
+    })
 }
 
 impl super::IncrementalChecker {

@@ -2,6 +2,7 @@
 
 use motet_syntax::ast::EndKind;
 use motet_syntax::{Diagnostic, Mistake as _};
+use smallvec::SmallVec;
 
 use super::assume::{Outcome, mentions};
 use super::collector::Collector;
@@ -339,16 +340,14 @@ impl<'a> Prover<'a> {
             return;
         }
         let rows = std::mem::take(&mut self.state.volatile);
+        let patterns: Vec<&Volatile> = rows.iter().filter(|row| row.key.is_pattern()).collect();
         // What another reaction or the world may do to all of a pattern, it may do to this one.
         let wider = |row: &Volatile| {
             let (fluent, key, when) = (row.fluent, row.key, row.when);
-            let is_wider = move |other: &&Volatile| {
-                other.fluent == fluent
-                    && other.when != when
-                    && other.key.is_pattern()
-                    && other.key.covers(key)
+            let is_wider = move |other: &&&Volatile| {
+                other.fluent == fluent && other.when != when && other.key.covers(key)
             };
-            rows.iter().filter(is_wider).map(|other| other.value)
+            patterns.iter().filter(is_wider).map(|other| other.value)
         };
         let single = rows.iter().filter(|row| !row.key.is_pattern());
         let single = single.map(|row| {
@@ -356,16 +355,18 @@ impl<'a> Prover<'a> {
             (row, wider(row).fold(value, TruthSet::join))
         });
         let single: Vec<_> = single.collect();
-        for row in rows.iter().filter(|row| row.key.is_pattern()) {
+        for row in &patterns {
             // A narrower row of the same reaction says more of what it covers.
-            let is_told = |key: FactKey| {
-                rows.iter().any(|other| {
+            let narrower: SmallVec<[FactKey; 16]> = rows
+                .iter()
+                .filter(|other| {
                     (other.fluent, other.when) == (row.fluent, row.when)
                         && other.key != row.key
                         && row.key.covers(other.key)
-                        && other.key.covers(key)
                 })
-            };
+                .map(|other| other.key)
+                .collect();
+            let is_told = |key: FactKey| narrower.iter().any(|other| other.covers(key));
             self.state.facts.change(row.fluent, row.key, |key, known| {
                 if is_told(key) { known } else { known.join(row.value) }
             });

@@ -6,6 +6,7 @@ use motet_compiler::signature::Type;
 use super::event_log::{Event, Flags, Id, Name, State};
 use super::machine::Machine;
 use super::oracle::{Argument, CallSite, MOST_SHARED};
+use super::question::PAUSE;
 use super::word::BOUND;
 use crate::automaton::{BoundNames, CaughtField, Meaning, Op, OpId, WordList};
 use crate::grammar::{BlockRole, Guard, NodeKind, WordRole};
@@ -50,9 +51,8 @@ impl Machine {
             Guard::Pose => self.takes_pose(state),
             Guard::First(place, ty) => self.can_be_first(state, place, ty),
             Guard::Interrupt => {
-                let pause = [Event::Open(NodeKind::Within), Event::Close];
                 let is_plain = !flags.has(Flags::TRIED) && !flags.has(Flags::SHARED);
-                may_fix && (is_plain || self.verify_beside(state.event, &pause))
+                may_fix && (is_plain || self.verify_beside(state.event, &PAUSE))
             }
             Guard::Split(split) => {
                 let mut ended = *state;

@@ -22,6 +22,10 @@ use crate::grammar::{Constant, NodeKind};
 /// completed.
 pub(super) const MOST_SHARED: usize = 3;
 
+/// Number of values that are tried before one proof asks if any of the others can succeed. It takes as long as
+/// some of theirs.
+const TRIED_ALONE: usize = 3;
+
 /// An argument of a call that is tried.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) enum Argument {
@@ -163,7 +167,8 @@ impl Machine {
     pub(crate) fn can_be_called(&mut self, callable: u16, site: CallSite) -> bool {
         let Some(own) = self.site_of(callable, site) else { return false };
         if own.shared {
-            self.probe_callables(site);
+            let made = self.context.automaton.callables.get(usize::from(callable));
+            self.probe_callables(site, made.is_some_and(|made| made.primitive.is_none()));
         }
         self.completes_call(callable, &mut Vec::new(), own)
     }
@@ -194,9 +199,11 @@ impl Machine {
             let events: Vec<Event> = of_call(callable, given).collect();
             return !site.shared || self.verify(site.event, &events);
         };
+        let proofs = self.oracle.proofs;
         for (tried, option) in options.into_iter().enumerate() {
-            // If the first value fails, perhaps none can succeed: one proof tells.
-            if tried == 1
+            // If the first values fail in proofs, perhaps none can succeed: one proof tells.
+            if tried == TRIED_ALONE
+                && self.oracle.proofs > proofs
                 && made.primitive.is_none()
                 && !self.place(site.event).is_some_and(|(draft, session)| {
                     draft.permits_open_policy(session, (&signature.name, made.template.as_ref()), &args)
@@ -230,6 +237,7 @@ impl Machine {
         }
         args.resize_with(signature.params.len(), || None);
         let ask = |machine: &mut Self| {
+            machine.oracle.proofs += usize::from(given.len() == signature.params.len());
             machine.place(site.event).is_some_and(|(draft, session)| match made.primitive {
                 Some(primitive) => draft.permits_call(session, primitive, &args),
                 None => draft.permits_policy(session, (&signature.name, made.template.as_ref()), &args),

@@ -28,6 +28,8 @@ pub(crate) struct Oracle {
     pub(super) verifier: ProofCursor,
     /// The hash of the log up to where `place` stands.
     pub(super) stands: Option<u64>,
+    /// Number of whole calls that were asked about.
+    pub(super) proofs: usize,
 }
 
 /// The log of a machine, to be read as syntax.

@@ -85,14 +85,18 @@ impl Machine {
     }
 }
 
+/// A pause, as a step.
+pub(super) const PAUSE: [Event; 2] = [Event::Open(NodeKind::Within), Event::Close];
+
 /// Up to this many are asked one by one.
 const FEW: usize = 2;
 
 impl Machine {
-    /// Probes all primitives that may stand at a place beside concurrent steps. Policies do more and are
-    /// refuted more often, so they are asked alone.
-    pub(super) fn probe_callables(&mut self, site: CallSite) {
-        let key = self.key(Question::Probed, site.event, None);
+    /// Probes all primitives, or all policies, that may stand at a place beside concurrent steps. Policies do
+    /// more and are refuted more often, so they are asked apart. With the primitives goes a pause, which
+    /// monitors ask for.
+    pub(super) fn probe_callables(&mut self, site: CallSite, policies: bool) {
+        let key = mix(self.key(Question::Probed, site.event, None), u64::from(policies));
         if self.known(key).is_some() {
             return;
         }
@@ -100,10 +104,13 @@ impl Machine {
         let context = Arc::clone(&self.context);
         let mut calls = Vec::new();
         for (callable, _) in
-            (0..).zip(&context.automaton.callables).filter(|(_, made)| made.primitive.is_some())
+            (0..).zip(&context.automaton.callables).filter(|(_, made)| made.primitive.is_none() == policies)
         {
             let own = self.site_of(callable, site).filter(|site| site.shared);
             calls.extend(own.and_then(|site| self.likely_call(callable, &mut Vec::new(), site)));
+        }
+        if !policies && !site.cleans {
+            calls.push(PAUSE.to_vec());
         }
         self.probe((site.event, site.event), &calls);
     }

@@ -4,6 +4,7 @@
 use crate::common::tokens::{END, tokens};
 use crate::common::walks::{Dice, Ended, KINDS, of_kind, steps, walk, written};
 use crate::common::{SETTINGS, errors, session};
+use motet_compiler::signature::Type;
 use motet_decode::{AcceptorFactory, Grammar, Modifiers, Subset, Vocabulary, canonical};
 use motet_syntax::{FileId, Source, Syntax};
 
@@ -97,6 +98,43 @@ fn acceptor_opens_concurrent_calls_that_check() {
     }
     println!("{open} open, {closed} closed");
     assert!(open > 20 && closed > 20, "{open} open, {closed} closed");
+}
+
+/// What a policy needs is asked before its steps are proved, with a full hand and an empty one: a call is open
+/// exactly where it checks.
+#[test]
+fn acceptor_opens_policies_that_check() {
+    let session = session("hsr", "kitchen");
+    let (factory, signatures) =
+        (AcceptorFactory::new(&session, subset(Modifiers::Default)), session.signatures());
+    let held = r#"{"do":"go","to":"mug_1"},{"do":"pick","object":"mug_1","from":"auto"},"#;
+    let (mut open, mut closed) = (0, 0);
+    for begin in ["", held] {
+        let head =
+            r#"{"motet":1,"policy":"p","result":null,"robot":"hsr","achieves":null,"keep":null,"steps":["#;
+        for callable in signatures.callables.iter().filter(|callable| callable.is_policy) {
+            for (one, _) in signatures.entities.iter().step_by(3) {
+                for (other, _) in &signatures.entities {
+                    let mut names = [one, other].into_iter();
+                    let args = callable.params.iter().map(|param| match param.ty {
+                        Type::Text => format!(r#","{}":"cups""#, param.name),
+                        _ => format!(r#","{}":"{}""#, param.name, names.next().unwrap_or(other)),
+                    });
+                    let args: String = args.collect();
+                    let call = format!(r#"{{"do":"{}"{args}}}"#, callable.name);
+                    let end = r#",{"end":"fail","why":"no"}],"finally":null}"#;
+                    let text = format!("{head}{begin}{call}{end}");
+                    let wrong = errors(&session, &text);
+                    let mut acceptor = factory.acceptor(8000).unwrap();
+                    let is_open = acceptor.accept(text.as_bytes()) == text.len();
+                    assert_eq!(is_open, wrong.is_empty(), "{wrong:#?}\n{text}");
+                    *if is_open { &mut open } else { &mut closed } += 1;
+                }
+            }
+        }
+    }
+    println!("{open} open, {closed} closed");
+    assert!(open > 100 && closed > 100, "{open} open, {closed} closed");
 }
 
 fn last_fails(text: &str) -> bool {
