@@ -26,7 +26,7 @@ from .beliefs import Beliefs
 from .camera import NoGraphics
 from .chance import Chance, profile
 from .disorder import displace
-from .eyes import Eyes
+from .eyes import Eyes, extent
 from .judge import DEFAULT, SCENES, SLIPS, disturbed, follow, interval, quoted, carry_out, trials, verdicts
 from .model import Model, ModelError, find_motet, motet
 from .world import World
@@ -37,12 +37,19 @@ class Count:
 
     def __init__(self):
         self.events, self.of, self.sizes = 0, 0, []
+        self.looks = 0.0  # trials, each counted as often as it would be harder than the usual one
 
     def add(self, comes, size=None):
         """Adds a trial."""
         self.events, self.of = self.events + bool(comes), self.of + 1
         if size is not None:
             self.sizes.append(size)
+
+    def as_looks(self, name):
+        """The rate of the usual trial, from harder ones, with its interval."""
+        scale = self.of / max(self.looks, 1e-9)
+        low, high = interval(self.events, self.of)
+        return "%s: %.4f (%.4f to %.4f)" % (name, self.events / max(self.looks, 1e-9), low * scale, high * scale)
 
     def line(self, name):
         """Line of a table."""
@@ -122,6 +129,8 @@ def look(world, thing, witness, rates, chance, found):
         far = float(np.linalg.norm(world.pose(thing)[0] - eyes.eye()))
         off = np.linalg.norm(np.array(seen[0]["pose"]["xyz"]) - world.pose(thing)[0]) if seen else None
         found["camera.miss"].add(not seen, off / far if seen else None)
+        # As a look at 10 cm from 1 m would be, which the rate of a profile is of.
+        found["camera.miss"].looks += far * 0.1 / float(np.max(extent(world.model.entities[thing])))
     finally:
         eyes.close()
         if eyes.camera.renderer is not None:
@@ -155,6 +164,7 @@ def main(arguments=None):
         print(count.line(name))
     sizes = found["camera.miss"].sizes if "camera.miss" in found else []
     if sizes:
+        print("\n" + found["camera.miss"].as_looks("camera.miss, of a thing of 10 cm at 1 m"))
         print("\nseen places are off by %.4f m for each metre at the median, %.4f m in one of ten"
               % (np.median(sizes), np.percentile(sizes, 90)))
     return 0

@@ -23,7 +23,7 @@ import numpy as np
 
 from .chance import Chance, profile
 from .model import Model, ModelError, find_motet, motet
-from .motion import phases, timed
+from .motion import Path, gentle, phases, timed
 from .world import World
 
 SCENES = {"panda": [os.path.join(os.path.dirname(__file__), "scenes", "table.json")]}
@@ -60,9 +60,12 @@ def carry_out(world, query, witness, share=1.0):
 
 
 def follow(world, points, share):
-    """Follows points, and measures the error of base and joints at the end of each leg."""
+    """Follows points, and measures the error of base and joints at the end of each leg. With a thing in the hand it
+    accelerates as little as the driver and the times of a witness do."""
     greatest = np.zeros(2)
     path = timed(points, world.model, share)
+    if world.held():
+        path = Path([gentle(world, stroke) for stroke in path.strokes])
     start = world.now
     while world.now - start < path.end:
         world.step(*path.at(world.now - start + world.tick / 2.0))

@@ -7,6 +7,8 @@ import numpy as np
 STRAIGHT = 0.97
 # Shares of the longest overlap of two legs that are tried.
 SHARES = (1.0, 0.75, 0.5, 0.25)
+# Greatest acceleration of the hand while it holds something, in m/s² and rad/s².
+HELD = (1.0, 3.0)
 
 
 class Path:
@@ -198,6 +200,26 @@ def witnessed(points, path, model, share):
 def near_turn(angle, to):
     """The angle nearest to another of those that differ by full turns."""
     return angle + 2.0 * np.pi * round((to - angle) / (2.0 * np.pi))
+
+
+def gentle(world, stroke):
+    """A stroke on which the hand accelerates no more than a thing in it bears."""
+    if stroke.span < 1e-6:
+        return stroke
+    middles = [(before + after) / 2.0 for before, after in zip(stroke.points, stroke.points[1:])]
+    between = [point for pair in zip(stroke.points, middles) for point in pair]
+    frames = [frame_at(world, point) for point in [*between, stroke.points[-1]]]
+    far = sum(np.linalg.norm(one[0] - other[0]) for one, other in zip(frames, frames[1:]))
+    turn = sum(np.linalg.norm(rotation_vector(other[1] @ one[1].T)) for one, other in zip(frames, frames[1:]))
+    pace = max(far / HELD[0], turn / HELD[1]) / (stroke.ramp * (stroke.span - stroke.ramp))
+    factor = max(1.0, np.sqrt(pace))
+    return Stroke(stroke.points, stroke.cruise, stroke.span * factor, stroke.ramp * factor)
+
+
+def frame_at(world, target):
+    """Position and rotation of the hand at targets of the actuators."""
+    set_targets(world.model, world.reacher.data, world.data.qpos.copy(), target)
+    return world.reacher.pose(world.reacher.data.qpos.copy())
 
 
 def phases(points, grips, phase="move"):

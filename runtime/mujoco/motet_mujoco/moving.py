@@ -6,7 +6,7 @@ Its parts are generators that aim the actuators once a tick; a task is made of t
 import numpy as np
 
 from .clearance import Clearance
-from .motion import Path, Stroke, near_turn, rotation_vector, set_targets, timed, witnessed
+from .motion import Path, frame_at, gentle, near_turn, timed, witnessed
 
 # Differences in m or rad up to which the robot stands at the beginning of a path.
 BEGINS = 0.05
@@ -16,8 +16,6 @@ BLOCKED = 0.12
 RETREATS = (0.15, 0.3, 0.45)
 # Seconds that pass for each place of which a plan is tried, so that no answer to the host takes long.
 THINKS = 0.1
-# Greatest acceleration of the hand while it holds something, in m/s² and rad/s².
-HELD = (1.0, 3.0)
 
 
 class Failed(Exception):
@@ -64,7 +62,7 @@ class Mover:
             return
         path = path.to(points)
         if self.room.held():
-            path = Path([self.gentle(stroke) for stroke in path.strokes])
+            path = Path([gentle(world, stroke) for stroke in path.strokes])
         if len(path.strokes) > 1:
             path = path.blended(model, Clearance(world, self.beliefs, keeps).is_free)
         elapsed, behind = 0.0, 0
@@ -84,24 +82,9 @@ class Mover:
                 watch()
         self.goal[mask] = points[-1][mask]
 
-    def gentle(self, stroke):
-        """A stroke on which the hand accelerates no more than a thing in it bears."""
-        if stroke.span < 1e-6:
-            return stroke
-        middles = [(before + after) / 2.0 for before, after in zip(stroke.points, stroke.points[1:])]
-        between = [point for pair in zip(stroke.points, middles) for point in pair]
-        frames = [self.frame(point) for point in [*between, stroke.points[-1]]]
-        far = sum(np.linalg.norm(one[0] - other[0]) for one, other in zip(frames, frames[1:]))
-        turn = sum(np.linalg.norm(rotation_vector(other[1] @ one[1].T)) for one, other in zip(frames, frames[1:]))
-        pace = max(far / HELD[0], turn / HELD[1]) / (stroke.ramp * (stroke.span - stroke.ramp))
-        factor = max(1.0, np.sqrt(pace))
-        return Stroke(stroke.points, stroke.cruise, stroke.span * factor, stroke.ramp * factor)
-
     def frame(self, target):
         """Position and rotation of the hand at targets of the actuators."""
-        world = self.world
-        set_targets(world.model, world.reacher.data, world.data.qpos.copy(), target)
-        return world.reacher.pose(world.reacher.data.qpos.copy())
+        return frame_at(self.world, target)
 
     def grip(self, closed, seconds):
         """Closes or opens the hand over a time, from where its fingers are."""

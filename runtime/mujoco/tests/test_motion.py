@@ -6,8 +6,8 @@ from motet_mujoco.beliefs import Beliefs
 from motet_mujoco.chance import Chance, profile
 from motet_mujoco.driver import Driver, Options
 from motet_mujoco.model import load
-from motet_mujoco.motion import Path, timed, witnessed
-from motet_mujoco.moving import HELD, Failed, Motion, Mover
+from motet_mujoco.motion import HELD, Path, gentle, timed, witnessed
+from motet_mujoco.moving import Failed, Motion, Mover
 from motet_mujoco.observation import Observer
 from motet_mujoco.world import World
 
@@ -95,7 +95,7 @@ def test_a_thing_in_the_hand_is_carried_gently(motet):
     out[world.model.controls["joint2"]] += 1.5
     out[world.model.controls["joint6"]] += 1.5
     quick = mover.path([start, out])
-    slow = Path([mover.gentle(stroke) for stroke in quick.strokes])
+    slow = Path([gentle(mover.world, stroke) for stroke in quick.strokes])
 
     def strongest(path):
         places = np.array([mover.frame(path.at(time)[0])[0] for time in np.arange(0.0, path.end, 0.02)])
