@@ -9,8 +9,8 @@ use motet_graph::Graph;
 use motet_host::remote::{DriverLog, LineFrom, RemoteDriver};
 use motet_runtime::conformance::{ConformanceSubject, check_perception, check_scenes};
 use motet_runtime::{
-    Answer, Command, Driver, DriverClock, DriverEvent, Effect, Engine, Event, GoalId, Pattern, Query, StartState,
-    Time,
+    Answer, Command, Driver, DriverClock, DriverEvent, Effect, Engine, Event, GoalId, Pattern, Query,
+    StartState, Time,
 };
 use motet_stdlib::lang;
 use smol_str::SmolStr;
@@ -158,7 +158,9 @@ pub fn first_call(graph: &Graph) -> Result<Command, String> {
     }
     Err(match asked.last() {
         None => "the policy does not begin with a call".to_owned(),
-        Some(query) => format!("the policy observes `{query}` before its first call, and it has to be false or a number"),
+        Some(query) => {
+            format!("the policy observes `{query}` before its first call, and it has to be false or a number")
+        }
     })
 }
 
