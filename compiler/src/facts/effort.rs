@@ -4,7 +4,7 @@
 use motet_syntax::effort::Effort;
 
 /// Facts that the proofs of one document may look at. The visit of a step counts as [`VISIT`] of them.
-const MAX_FACTS: u64 = 30_000_000;
+const MAX_FACTS: u64 = 40_000_000;
 /// Facts that they may look at besides, for each byte of the document.
 const MAX_FACTS_OF_BYTE: u64 = 3;
 /// Weight of the visit of a step.
