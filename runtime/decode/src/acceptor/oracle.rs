@@ -22,8 +22,8 @@ use crate::grammar::{Constant, NodeKind};
 /// completed.
 pub(super) const MOST_SHARED: usize = 3;
 
-/// Number of values that are tried before one proof asks if any of the others can succeed. It takes as long as
-/// some of theirs.
+/// Number of values that are tried before one proof asks if any of the others can succeed. It takes as long
+/// as some of theirs.
 const TRIED_ALONE: usize = 3;
 
 /// An argument of a call that is tried.

@@ -100,8 +100,8 @@ fn acceptor_opens_concurrent_calls_that_check() {
     assert!(open > 20 && closed > 20, "{open} open, {closed} closed");
 }
 
-/// What a policy needs is asked before its steps are proved, with a full hand and an empty one: a call is open
-/// exactly where it checks.
+/// The needs of a policy are asked before its steps are proved, with a full hand and an empty one: a call is
+/// open exactly where it checks.
 #[test]
 fn acceptor_opens_policies_that_check() {
     let session = session("hsr", "kitchen");
