@@ -50,7 +50,13 @@ pub(crate) fn open_driver(
     let none = File::default();
     let file = subject.policy.map_or(&none, |(_, parsed)| &parsed.file);
     match address(args, &environment.or_of(subject.opened), file)? {
-        Some(address) => remote(&address, args, subject),
+        Some(address) => {
+            if args.faults.is_some() || args.answers.is_some() {
+                // Physics is not started for a script that nobody can play.
+                args.inputs(None, report)?.check_names(&subject.opened.session.signatures())?;
+            }
+            remote(&address, args, subject)
+        }
         None => kinematic(args, subject, report),
     }
 }

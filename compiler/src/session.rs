@@ -7,7 +7,7 @@ use std::sync::{Arc, OnceLock};
 
 use motet_graph::Value;
 use motet_robots::card::Robot;
-use motet_robots::scene::Scene;
+use motet_robots::scene::{Grip, Scene};
 use motet_syntax::ast::File;
 use motet_syntax::{Diagnostic, Sources, Span};
 use smol_str::SmolStr;
@@ -252,6 +252,12 @@ impl Session {
     pub fn signatures(&self) -> Arc<Signatures> {
         let build = || Arc::new(Signatures::new(&self.library, &self.environment));
         Arc::clone(self.signatures.get_or_init(build))
+    }
+
+    /// Grip that the state at the start gives.
+    #[must_use]
+    pub fn initial_grip(&self) -> Option<&Grip> {
+        self.state.as_ref()?.grip.as_ref()
     }
 
     /// Facts at the start with their values, in order: a later one overrides, and one with `None` as an

@@ -136,17 +136,20 @@ impl Bench {
             return Ok(TrialRobot::Kinematic(shared(Sim::new(robot, told, options))));
         }
         let folder = Folder::new()?;
-        let file = |name: &str, scene: &Scene| {
+        let file = |name: &str, text: String| {
             let path = folder.0.join(name);
-            fs::write(&path, write(scene)).map_err(|error| format!("{}: {error}", path.display()))?;
+            fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
             Ok::<_, String>(path.display().to_string())
         };
-        let (scene, told) = (file("scene.json", &laid(real))?, file("told.json", told)?);
+        let (scene, told) = (file("scene.json", write(&laid(real)))?, file("told.json", write(told))?);
+        let faults = serde_json::to_string(&faults).map_err(|error| error.to_string())?;
+        let faults = file("faults.json", faults)?;
         let (seed, motet) = (seed.to_string(), motet_program());
         let words =
             [PYTHON, "-m", "motet_mujoco", "--robot", &robot.name, "--scene", &scene, "--told", &told];
         // The robot sees by pixels; the truth is for the judge of the trial.
         let more = ["--seed", &seed, "--profile", &self.world, "--motet", &motet, "--oracle", "judge"];
+        let more = more.into_iter().chain(["--faults", &faults]);
         let words = words.into_iter().chain(more).map(str::to_owned).collect();
         let hello = Hello { run: format!("eval-{seed}"), robot: robot.name.to_string(), ..Hello::default() };
         let address = DriverAddress::Command(words);

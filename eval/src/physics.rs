@@ -13,7 +13,8 @@ use serde::Deserialize;
 const PACKAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../runtime/mujoco");
 
 /// Flags that are passed on to the judge, each with a value.
-const FLAGS: [&str; 6] = ["--robot", "--scene", "--kind", "--profile", "--seeds", "--motet"];
+const FLAGS: [&str; 9] =
+    ["--robot", "--scene", "--kind", "--profile", "--seeds", "--motet", "-j", "--jobs", "--shard"];
 
 /// One verdict carried out once.
 #[derive(Clone, PartialEq, Debug, Deserialize)]

@@ -10,19 +10,21 @@ mod recorded;
 use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use motet_graph::Graph;
+use motet_graph::{Graph, Pose, Value};
 use motet_host::journal::JournalWriter;
 use motet_host::remote::DriverTimeouts;
 use motet_host::remote::protocol::StateFact;
 use motet_planner::runtime_check::{Guard, WITHIN};
 use motet_project::{ProjectSession, SavedDriver, SavedProject, SimulationInputs};
-use motet_robots::scene::Scene;
+use motet_robots::quaternion::from_rpy;
+use motet_robots::scene::{Grip, Placement, Scene};
 use motet_runtime::journal::JournalHead;
 use motet_runtime::{
     Answer, Capabilities, Detection, Effect, Engine, EngineSettings, Event, Heard, Moved, Observer, Query,
     RunControl, StartState, Time, ToldThing, Truth, Verifier,
 };
 use motet_sim::Sim;
+use motet_stdlib::lang::GRIP;
 use motet_syntax::ast::File;
 
 use crate::Error;
@@ -105,11 +107,15 @@ pub fn simulator(
 #[must_use]
 pub fn state_facts(opened: &ProjectSession) -> Vec<StateFact> {
     let known = opened.told_facts().into_iter().filter_map(|(query, truth)| match truth {
-        Truth::True => Some(StateFact { query, holds: true }),
-        Truth::False => Some(StateFact { query, holds: false }),
+        Truth::True => Some(StateFact { query, holds: true, value: None }),
+        Truth::False => Some(StateFact { query, holds: false, value: None }),
         Truth::Unknown => None,
     });
-    known.collect()
+    let grip = opened.session.initial_grip().map(|Grip { of, tip_from_object: Placement { xyz, rpy } }| {
+        let value = Some(Value::Pose(Pose { xyz: *xyz, quaternion: from_rpy(*rpy) }));
+        StateFact { query: Query::Field { entity: of.clone(), field: GRIP.into() }, holds: true, value }
+    });
+    known.chain(grip).collect()
 }
 
 /// Settings of an engine whose driver may have to be reached again: a safe stop may take as long as that.

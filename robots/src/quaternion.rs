@@ -68,6 +68,12 @@ pub fn to_rpy([x, y, z, w]: Quaternion) -> [f64; 3] {
     [roll, libm::asin(sin), yaw]
 }
 
+/// Unit quaternion of roll, pitch and yaw in rad about fixed axes.
+#[must_use]
+pub fn from_rpy([roll, pitch, yaw]: [f64; 3]) -> Quaternion {
+    mul(from_axis_angle(2, yaw), mul(from_axis_angle(1, pitch), from_axis_angle(0, roll)))
+}
+
 /// Composes poses: the pose of `c` in `a` from that of `b` in `a` and that of `c` in `b`.
 #[must_use]
 pub fn compose(a_from_b: &Pose, b_from_c: &Pose) -> Pose {

@@ -15,6 +15,12 @@ pub const ASKING: [&str; 2] = [primitives::ASK, primitives::CHOOSE];
 /// Parameter of a primitive that offers a list of things, one of which is the result.
 pub const AMONG: &str = "among";
 
+/// Beginning of the names of the motions that grasp a thing.
+pub const REACH: &str = "reach";
+
+/// Field of a held thing that every driver may report: its pose in the frame of the hand's tip.
+pub const GRIP: &str = "grip";
+
 macro_rules! names {
     ($($(#[$doc:meta])* $module:ident { $($constant:ident = $name:literal)* })*) => {$(
         $(#[$doc])*

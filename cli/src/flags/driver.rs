@@ -47,20 +47,22 @@ pub(crate) struct DriverArgs {
 impl DriverArgs {
     /// Refuses flags that mean nothing to the driver.
     pub(crate) fn refuse_flags(&self) -> Result<(), CliError> {
-        if self.driver == DriverChoice::Kinematic {
+        if matches!(self.driver, DriverChoice::Kinematic | DriverChoice::Mujoco) {
             return Ok(());
         }
         let given = [
             ("--faults", self.faults.is_some()),
             ("--answers", self.answers.is_some()),
-            ("--profile", self.profile.is_some() && self.driver != DriverChoice::Mujoco),
+            ("--profile", self.profile.is_some()),
             ("--world", self.world.is_some()),
-            ("--seed", self.seed.is_some() && self.driver != DriverChoice::Mujoco),
+            ("--seed", self.seed.is_some()),
         ];
         match given.iter().find(|(_, is_given)| *is_given) {
             None => Ok(()),
             Some((flag, _)) => Err(CliError::Advised {
-                problem: format!("`{flag}` is for the kinematic simulator, not for another driver"),
+                problem: format!(
+                    "`{flag}` is for the simulators, `kinematic` and `mujoco`, not for another driver"
+                ),
                 help: format!("leave out `{flag}`, or write a flag of the driver into `--driver COMMAND`"),
             }),
         }
@@ -205,11 +207,18 @@ impl DriverChoice {
                 let scene = scene.ok_or_else(|| missing("scene", "--scene NAME|FILE"))?;
                 check_modules()?;
                 let seed = simulation.seed().to_string();
-                let words = [PYTHON, "-m", PACKAGE, "--robot", robot, "--scene", scene, "--seed", &seed];
+                let world = simulation.world.as_deref().unwrap_or(scene);
+                let words = [PYTHON, "-m", PACKAGE, "--robot", robot, "--scene", world, "--seed", &seed];
                 let mut words: Vec<String> = words.map(str::to_owned).to_vec();
-                if let Some(profile) = &simulation.profile {
-                    words.extend(["--profile".to_owned(), profile.clone()]);
-                }
+                let path = |path: Option<&Path>| path.map(|path| path.display().to_string());
+                let flags = [
+                    ("--told", simulation.world.as_ref().map(|_| scene.to_owned())),
+                    ("--profile", simulation.profile.clone()),
+                    ("--faults", path(simulation.faults.as_deref())),
+                    ("--answers-file", path(simulation.answers.as_deref())),
+                ];
+                let flags = flags.into_iter().filter_map(|(flag, value)| Some([flag.to_owned(), value?]));
+                words.extend(flags.flatten());
                 words.extend(own_program());
                 Ok(Some(DriverAddress::Command(words)))
             }

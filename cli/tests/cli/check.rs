@@ -15,6 +15,9 @@ fn place(name: &str) -> Place {
         .file("latin.motet", b"policy caf\xe9 {}")
         .file("state.json", r#"{"holding(mug_1)": true, "free(hand)": false}"#)
         .file("open.json", r#"{"open(drawer_1)": true}"#)
+        .file("odd_grip.json", r#"{"holding(mug_1)": {"xyz": [0, 0, 0]}}"#)
+        .file("true_grip.json", r#"{"grip(mug_1)": true}"#)
+        .file("far_grip.json", r#"{"holding(mug_1)": true, "grip(mug_1)": {"xyz": [0, 0, 9]}}"#)
         .file("odd_state.json", r#"{"holding(": true}"#)
         .file("full_hand.json", r#"{"holding(mug_1)": true, "free(hand)": true}"#)
         .file("two_held.json", r#"{"holding(mug_1)": true, "holding(coke)": true}"#)
@@ -109,6 +112,13 @@ fn ends_with_the_right_code() {
         ("check good.motet --scene absent.json".to_owned(), 2, &["err:cannot read `absent.json`"]),
         ("check good.motet --state absent.json".to_owned(), 2, &["err:cannot read `absent.json`"]),
         (format!("check good.motet {scene} --state odd_state.json"), 2, &["out:M0224"]),
+        (
+            format!("check good.motet {scene} --state odd_grip.json"),
+            2,
+            &["out:M0224", "out:holding(mug_1): pose"],
+        ),
+        (format!("check good.motet {scene} --state true_grip.json"), 2, &["out:grip"]),
+        (format!("check good.motet {scene} --state far_grip.json"), 2, &["out:grip(mug_1): pose"]),
         (format!("check good.motet {scene} --state full_hand.json"), 2, &["out:M0225", "out:cannot be free"]),
         (format!("check good.motet {scene} --state two_held.json"), 2, &["out:M0225", "out:has one hand"]),
         (format!("check good.motet {scene} --state all_held.json"), 2, &["out:M0225", "out:name the thing"]),

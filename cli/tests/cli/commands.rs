@@ -28,6 +28,18 @@ fn answers() {
             &["out:put(mug_1, kitchen_table): feasible, base at"],
         ),
         (
+            "feasible --robot hsr --scene kitchen --for put(mug_1,kitchen_table) --state \
+             {\"holding(mug_1)\":true,\"grip(mug_1)\":{\"xyz\":[0,0,0.09],\"rpy\":[0,1.5708,0]}}",
+            0,
+            &["out:put(mug_1, kitchen_table): feasible, base at"],
+        ),
+        (
+            "feasible --robot hsr --scene kitchen --for put(mug_1,kitchen_table) --state \
+             {\"holding(mug_1)\":true,\"grip(mug_1)\":{\"xyz\":[0,0,0.09],\"rpy\":[0.9,0.4,0]}}",
+            1,
+            &["out:put(mug_1, kitchen_table): "],
+        ),
+        (
             "robots mjcf --robot hsr --scene kitchen --state {\"on(mug_1,sink)\":true}",
             2,
             &["err:the state says `on(mug_1,sink)`, but the scene gives no pose for it"],

@@ -2,9 +2,10 @@
 //! no more things than it has hands, and a hand with a thing is not free.
 
 use indexmap::{IndexMap, IndexSet};
-use motet_robots::scene::Scene;
+use motet_robots::scene::{Grip, Placement, Scene, StateEntry};
 use motet_stdlib::lang;
 use motet_syntax::ast::MAX_MISTAKES;
+use motet_syntax::located::Spanned;
 use motet_syntax::{Diagnostic, Span, Syntax};
 use smol_str::{SmolStr, format_smolstr};
 
@@ -19,6 +20,29 @@ use crate::ir::{Base, Entity, Fact, Fluent, Term};
 pub struct InitialState {
     /// Facts with their truth value (`None` for unknown) and span.
     pub facts: IndexMap<String, (Option<bool>, Span)>,
+    /// Grip of a thing, which counts while the hand holds that: `{"grip(mug_1)": {"xyz": …, "rpy": …}}`.
+    pub grip: Option<Grip>,
+}
+
+impl FromIterator<(Spanned<String>, StateEntry)> for InitialState {
+    /// State of the entries of a file. A pose of anything but a grip is kept as a fact that does not parse.
+    fn from_iter<I: IntoIterator<Item = (Spanned<String>, StateEntry)>>(entries: I) -> Self {
+        let mut state = Self::default();
+        for (Spanned { value: text, span }, entry) in entries {
+            let grip = |pose| {
+                let of = text.trim().strip_prefix(lang::GRIP)?.trim().strip_prefix('(')?.strip_suffix(')')?;
+                Grip::at(of.trim().trim_matches('`').into(), pose)
+            };
+            match entry {
+                StateEntry::Truth(truth) => drop(state.facts.insert(text, (truth, span))),
+                StateEntry::Grip { xyz, rpy } => match grip(Placement { xyz, rpy }) {
+                    Some(grip) => state.grip = Some(grip),
+                    None => drop(state.facts.insert(format!("{text}: pose"), (None, span))),
+                },
+            }
+        }
+        state
+    }
 }
 
 impl InitialState {
@@ -48,6 +72,7 @@ impl InitialState {
                 _ => {}
             }
         }
+        scene.robot.grip = self.grip.clone().or_else(|| scene.robot.grip.take());
         Ok(())
     }
 
@@ -122,13 +147,13 @@ impl InitialState {
 }
 
 /// Entry of a state: the fact, its truth value (`None` for unknown), and its span.
-type StateEntry = (Fact, Option<bool>, Span);
+type StatedFact = (Fact, Option<bool>, Span);
 
 /// Finds a contradiction between the facts of a state and those of the scene.
 pub(super) fn contradiction(
     library: &Library,
     environment: &Environment,
-    said: &[StateEntry],
+    said: &[StatedFact],
 ) -> Option<Diagnostic> {
     let holding = fluent(library, library.lang_items.holding, |ty| matches!(ty, Base::Entity(_)))?;
     let free = fluent(library, library.lang_items.free, |ty| matches!(ty, Base::Enum(_)))?;
@@ -157,7 +182,7 @@ pub(super) fn contradiction(
         }
     }
     let place_of = |entity: Entity| {
-        let is_it = |(fact, value, _): &&StateEntry| {
+        let is_it = |(fact, value, _): &&StatedFact| {
             *value == Some(true) && fact.args == [Some(Term::Entity(entity))] && fact.fluent == holding
         };
         said.iter().find(is_it).map(|(.., span)| *span)
@@ -174,7 +199,7 @@ pub(super) fn contradiction(
         let remedy = format!("remove one, or add \"holding({first})\": false to override the scene");
         return Some(Contradiction { span, what, remedy, other }.into());
     }
-    let is_spare = |(fact, value, _): &&StateEntry| fact.fluent == free && *value == Some(true);
+    let is_spare = |(fact, value, _): &&StatedFact| fact.fluent == free && *value == Some(true);
     let spare = said.iter().rfind(is_spare).map(|(.., span)| *span);
     let all = hand.cases.len();
     let open = said.iter().filter(is_spare).map(|(fact, ..)| if fact.args == [None] { all } else { 1 });

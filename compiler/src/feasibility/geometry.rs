@@ -9,7 +9,7 @@ use motet_geometry::planning::{
     SearchBudget, UnknownReason,
 };
 use motet_robots::card::Robot;
-use motet_robots::scene::{Entity, Placement, Scene};
+use motet_robots::scene::{Entity, Grip, Placement, Scene};
 use motet_robots::urdf::Urdf;
 use motet_stdlib::lang;
 use rustc_hash::FxHashMap;
@@ -104,14 +104,17 @@ impl Geometry {
         }
     }
 
-    /// The geometry and the world in which things stand where they were seen. The geometry is a new one only
-    /// for things that the scene lacks or that it has on another support.
+    /// The geometry and the world in which the hand holds its thing as it felt, and things stand where they
+    /// were seen. The geometry is a new one only for things that the scene lacks or that it has on another
+    /// support.
     pub(super) fn seeing(
         this: &Arc<Self>,
         at: &Fingerprinted,
+        felt: Option<&Grip>,
         things: impl Iterator<Item = Entity>,
     ) -> (Arc<Self>, Arc<Fingerprinted>) {
-        let (mut world, mut scene) = (at.world.clone(), None);
+        let gripping = felt.and_then(|grip| at.world.gripping(grip));
+        let (mut world, mut scene) = (gripping.unwrap_or_else(|| at.world.clone()), None);
         for thing in things {
             match this.scene.entities.get(&thing.id) {
                 Some(known) if (&known.on, &known.inside) == (&thing.on, &thing.inside) => {

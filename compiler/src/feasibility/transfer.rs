@@ -2,7 +2,7 @@
 
 use motet_geometry::planning::{
     Configuration, GraspSide, InfeasibleReason, MapPose, MotionAnswer, MotionLimits, MotionQuery,
-    MotionWitness, RobotModel, SpeedShare, UnknownReason, components,
+    MotionWitness, RobotModel, SceneState, SpeedShare, UnknownReason, components,
 };
 use motet_graph as graph;
 use motet_stdlib::lang;
@@ -66,7 +66,7 @@ impl MotionChecker<'_> {
                     let next = self.following(id, call, def, &query, &possible, &answer);
                     if witness.is_none() {
                         let machine = self.geometry.machine();
-                        let found = graph_witness(machine, motion, call.manner);
+                        let found = graph_witness(machine, &possible.at.world, motion, call.manner);
                         let end = next.known.first().filter(|_| next.lost.is_none());
                         let leaves = end.map(|end| leaves(machine, &found, motion, &end.at.world.robot));
                         witness = Some((Box::new(found), leaves.map(Box::new)));
@@ -321,6 +321,7 @@ fn in_words(why: &UnknownReason) -> SmolStr {
 /// Witness of a motion for the graph, with its times in a manner. Holds only the joints that move.
 pub(super) fn graph_witness(
     machine: &RobotModel,
+    world: &SceneState,
     witness: &MotionWitness,
     manner: Option<graph::Manner>,
 ) -> graph::Witness {
@@ -334,7 +335,8 @@ pub(super) fn graph_witness(
     let moving: Vec<usize> = (0..dofs.len()).filter(moves).collect();
     let share = manner
         .map_or(SpeedShare::FULL, |graph::Manner { speed, acceleration }| SpeedShare { speed, acceleration });
-    let times = MotionLimits::of(machine).times(&witness.path, share);
+    let limits = MotionLimits::of(machine);
+    let times = limits.times_with_load(&witness.path, share, world.held.is_some().then_some(machine));
     let path = witness.path.iter().zip(times).map(|(state, time)| graph::Waypoint {
         base: state.base,
         joints: moving.iter().map(|at| state.joints.get(*at).copied().unwrap_or(0.0)).collect(),
@@ -345,8 +347,10 @@ pub(super) fn graph_witness(
         joints: moving.iter().filter_map(|at| Some(dofs.get(*at)?.name.clone())).collect(),
         path: path.collect(),
         grasp: witness.grasp.as_ref().map(|grasp| {
-            let (xyz, quaternion) = components(&grasp.map_from_tip);
-            graph::Grasp { xyz, quaternion, width: grasp.width }
+            let pose = |(xyz, quaternion)| graph::Pose { xyz, quaternion };
+            let graph::Pose { xyz, quaternion } = pose(components(&grasp.map_from_tip));
+            let object = Some(pose(components(&grasp.tip_from_object)));
+            graph::Grasp { xyz, quaternion, width: grasp.width, object }
         }),
         clearance: witness.margins.clearance,
         keeps: graph::Clearance {

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use motet_geometry::planning::{Infeasible, MapPose, MotionAnswer, MotionQuery, UnknownReason};
 use motet_graph::{Configuration, Manner, Value, Witness};
-use motet_robots::scene::Entity as SceneEntity;
+use motet_robots::scene::{Entity as SceneEntity, Grip};
 use motet_stdlib::lang;
 use smol_str::{SmolStr, format_smolstr};
 
@@ -30,6 +30,8 @@ pub struct WorldTracker {
     moving: u32,
     /// Things that were seen while something moved: they stand there once that is over.
     seen: Vec<SceneEntity>,
+    /// Grip that the robot felt: the hand holds the thing so once that is over.
+    felt: Option<Grip>,
 }
 
 /// Forecast of a motion.
@@ -65,7 +67,7 @@ struct ExecutedCall<'a> {
 impl WorldTracker {
     pub(crate) fn new(library: Arc<Library>, geometry: Arc<Geometry>) -> Self {
         let at = geometry.start();
-        Self { library, geometry, at, moving: 0, seen: Vec::new() }
+        Self { library, geometry, at, moving: 0, seen: Vec::new(), felt: None }
     }
 
     /// Forecasts a motion with the arguments `of` for a call of a primitive, in its manner, in the present
@@ -94,7 +96,7 @@ impl WorldTracker {
         match &*self.geometry.answer(at, &motion_query(kind, &args_of, side(args))) {
             MotionAnswer::Feasible(motion) => {
                 let machine = self.geometry.machine();
-                let witness = Box::new(graph_witness(machine, motion, manner));
+                let witness = Box::new(graph_witness(machine, &at.world, motion, manner));
                 let end = after(&self.library, &self.geometry, at, ExecutedCall { def, args, result: None });
                 let leaves =
                     end.ok().map(|end| Box::new(leaves(machine, &witness, motion, &end.world.robot)));
@@ -150,13 +152,19 @@ impl WorldTracker {
         self.take_in();
     }
 
+    /// Takes in how the hand holds a thing, as the robot felt it.
+    pub fn felt(&mut self, grip: Grip) {
+        self.felt = Some(grip);
+        self.take_in();
+    }
+
     fn take_in(&mut self) {
         let Ok(at) = &self.at else { return };
-        if self.moving > 0 || self.seen.is_empty() {
+        if self.moving > 0 || (self.seen.is_empty() && self.felt.is_none()) {
             return;
         }
         let seen = std::mem::take(&mut self.seen).into_iter().filter(|thing| !at.world.holds(&thing.id));
-        let (geometry, at) = Geometry::seeing(&self.geometry, at, seen);
+        let (geometry, at) = Geometry::seeing(&self.geometry, at, self.felt.take().as_ref(), seen);
         (self.geometry, self.at) = (geometry, Ok(at));
     }
 

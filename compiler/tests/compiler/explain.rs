@@ -5,6 +5,7 @@
 use std::collections::BTreeSet;
 
 use motet_compiler::{CheckOptions, Geometry, InitialState, Session, explain_pages};
+use motet_robots::scene::StateEntry;
 use motet_robots::{builtin, card, import, mesh, scene, srdf, urdf};
 use motet_syntax::json::{self, Spanned};
 use motet_syntax::{Diagnostic, FileId, Severity, Source, Sources};
@@ -208,13 +209,9 @@ impl Case {
 
     fn state(&mut self, text: &[u8]) {
         if let Some((source, file)) = self.add(text) {
-            let (facts, said) =
-                json::read::<indexmap::IndexMap<Spanned<String>, Option<bool>>>(&source, file);
+            let (facts, said) = json::read::<indexmap::IndexMap<Spanned<String>, StateEntry>>(&source, file);
             self.said.extend(said);
-            let facts = facts.unwrap_or_default().into_iter();
-            self.state = Some(InitialState {
-                facts: facts.map(|(fact, holds)| (fact.value, (holds, fact.span))).collect(),
-            });
+            self.state = Some(facts.unwrap_or_default().into_iter().collect());
         }
     }
 

@@ -22,7 +22,7 @@ pub use objects::{Objects, UNSEEN};
 pub use tables::{sums, table};
 
 use crate::actions::ActionFaults;
-use crate::bench::{Bench, DriverKind, TrialObserver};
+use crate::bench::{Bench, TrialObserver};
 use crate::outcome::FailureSort;
 use crate::planners::Timed;
 use crate::setup;
@@ -122,17 +122,13 @@ pub fn run(bench: &Bench, case: Case, seed: u64) -> Result<Trial, String> {
     })
 }
 
-/// All cases of a wordings file that a world can arrange: in physics no failure is injected.
+/// All cases of a wordings file.
 ///
 /// # Errors
 ///
 /// The reason of [`run`].
 pub fn trials(bench: &Bench, wordings: &str, objects: Objects) -> Result<Vec<Trial>, String> {
-    let is_injected = |kind: &Kind| matches!(kind, Kind::NotReachable | Kind::ActionFailed);
     let mut cases = cases(wordings, objects);
-    if bench.driver == DriverKind::Mujoco {
-        cases.retain(|case| !case.failures.iter().any(is_injected));
-    }
     cases.retain(|case| bench.asks_for(&[&case.robot, &case.scene, &case.request]));
     let seeded: Vec<_> = cases.into_iter().enumerate().step_by(bench.every.max(1)).collect();
     let shard = bench.workers.shard;

@@ -2,7 +2,7 @@
 
 use motet_geometry::planning::{
     Configuration, GraspSide, InfeasibleReason, MIN_CLEARANCE, Misfit, MotionAnswer, MotionLimits,
-    MotionQuery, MotionWitness, PathTime, RobotModel, SpeedShare, UnknownReason, components,
+    MotionQuery, MotionWitness, PathTime, RobotModel, SceneState, SpeedShare, UnknownReason, components,
 };
 use serde_json::{Map, Value, json};
 
@@ -79,13 +79,17 @@ fn numbers(reason: &InfeasibleReason) -> Vec<(&'static str, f64)> {
 }
 
 /// Answer as a JSON object.
-pub(super) fn json_line(machine: &RobotModel, query: &MotionQuery, answer: &MotionAnswer) -> String {
+pub(super) fn json_line(
+    (machine, world): (&RobotModel, &SceneState),
+    query: &MotionQuery,
+    answer: &MotionAnswer,
+) -> String {
     let mut object = Map::new();
     object.insert("query".into(), query.to_string().into());
     match answer {
         MotionAnswer::Feasible(witness) => {
             object.insert("answer".into(), "feasible".into());
-            object.insert("witness".into(), witness_json(machine, witness));
+            object.insert("witness".into(), witness_json(machine, world, witness));
         }
         MotionAnswer::Infeasible(why) => {
             object.insert("answer".into(), "infeasible".into());
@@ -109,7 +113,7 @@ pub(super) fn json_line(machine: &RobotModel, query: &MotionQuery, answer: &Moti
     Value::Object(object).to_string()
 }
 
-fn witness_json(machine: &RobotModel, witness: &MotionWitness) -> Value {
+fn witness_json(machine: &RobotModel, world: &SceneState, witness: &MotionWitness) -> Value {
     let grasp = witness.grasp.as_ref().map(|grasp| {
         let side = match grasp.side {
             GraspSide::Top => "top",
@@ -123,7 +127,8 @@ fn witness_json(machine: &RobotModel, witness: &MotionWitness) -> Value {
             "tip_from_object": pose(components(&grasp.tip_from_object)),
         })
     });
-    let times = MotionLimits::of(machine).times(&witness.path, SpeedShare::FULL);
+    let load = world.held.is_some().then_some(machine);
+    let times = MotionLimits::of(machine).times_with_load(&witness.path, SpeedShare::FULL, load);
     json!({
         "path": witness.path.iter().zip(times).map(|(at, time)| state(machine, at, time)).collect::<Vec<_>>(),
         "grasp": grasp,

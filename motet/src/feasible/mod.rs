@@ -146,7 +146,7 @@ pub fn decide_in(
             *why = room.explain(&query, why, budget);
         }
         let text = answers::describe(&query, &answer);
-        let json = answers::json_line(machine, &query, &answer);
+        let json = answers::json_line((machine, &world), &query, &answer);
         answered.push((query.clone(), answer.clone()));
         if each(MotionVerdict { query, answer, text, json, left }).is_break() {
             break;

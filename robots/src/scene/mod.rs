@@ -32,5 +32,5 @@ pub use recognition::{
     MOST_LABEL, MOST_NEW, RECOGNISED_M, SURE, clean_label, distance, numbered_id, recognise,
 };
 pub use serving::{NEAR_M, ServedKind, ServingReach, person_gap, serving_gap};
-pub use wire::schema;
+pub use wire::{StateEntry, schema};
 pub use write::write;

@@ -7,6 +7,7 @@ use motet_syntax::Span;
 use smol_str::SmolStr;
 
 use crate::clearance::ClearanceOverride;
+use crate::quaternion::{Quaternion, to_rpy};
 
 /// Greatest number of entities in one scene.
 pub const MAX_ENTITIES: usize = 20_000;
@@ -57,6 +58,27 @@ pub struct Grip {
     pub of: SmolStr,
     /// Pose of the entity in the frame of the hand's tip.
     pub tip_from_object: Placement,
+}
+
+impl Grip {
+    /// Grip of an entity at a pose in the frame of the hand's tip, with a quaternion x, y, z, w. `None` for a
+    /// pose that no hand has: farther than [`Self::FARTHEST_M`], or without a direction.
+    #[must_use]
+    pub fn new(of: SmolStr, xyz: [f64; 3], quaternion: Quaternion) -> Option<Self> {
+        let norm = quaternion.iter().map(|part| part * part).sum::<f64>().sqrt();
+        let rpy = to_rpy(quaternion.map(|part| part / norm));
+        Self::at(of, Placement { xyz, rpy }).filter(|_| (0.9..1.1).contains(&norm))
+    }
+
+    /// Grip of an entity at a placement in the frame of the hand's tip; `None` for one that no hand has.
+    #[must_use]
+    pub fn at(of: SmolStr, tip_from_object: Placement) -> Option<Self> {
+        let is_near = tip_from_object.xyz.iter().all(|part| part.abs() <= Self::FARTHEST_M);
+        is_near.then_some(Self { of, tip_from_object })
+    }
+
+    /// Greatest distance along an axis between a hand and the middle of what it holds, in m.
+    pub const FARTHEST_M: f64 = 2.0;
 }
 
 /// Spans of joints by name. They are not part of the state, so any two are equal.

@@ -75,6 +75,21 @@ pub(super) struct Robot {
     pub(super) at: Option<Spanned<SmolStr>>,
 }
 
+/// Entry of a state beside a scene: the truth value of a fact, `null` for unknown; or of `grip(THING)` the
+/// pose of the held thing in the frame of the hand's tip.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum StateEntry {
+    Truth(Option<bool>),
+    Grip {
+        /// Position in m.
+        xyz: [f64; 3],
+        /// Roll, pitch, yaw in rad, about the fixed axes x, y, z in that order.
+        #[serde(default)]
+        rpy: [f64; 3],
+    },
+}
+
 /// Distinguishes a key that is `null` from a missing one.
 fn present<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Option<Spanned<SmolStr>>>, D::Error> {
     Deserialize::deserialize(deserializer).map(Some)

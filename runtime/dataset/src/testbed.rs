@@ -103,7 +103,7 @@ impl Testbed {
     ) -> Result<Self, String> {
         let robot = &body.robot;
         let fact = |(fluent, holds): (&SmolStr, &bool)| (written(fluent), (Some(*holds), Span::default()));
-        let state = InitialState { facts: posture.iter().map(fact).collect() };
+        let state = InitialState { facts: posture.iter().map(fact).collect(), grip: None };
         let inputs = SessionInputs {
             robot: Some(robot),
             scene: Some(scene),

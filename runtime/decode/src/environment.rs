@@ -4,7 +4,7 @@ use indexmap::IndexMap;
 use motet_compiler::{InitialState, Session};
 use motet_robots::builtin;
 use motet_robots::card::{self, Robot};
-use motet_robots::scene::{self, Scene};
+use motet_robots::scene::{self, Scene, StateEntry};
 use motet_syntax::ast::File;
 use motet_syntax::json::{self, Spanned};
 use motet_syntax::{Diagnostic, FileId, Severity, Source, Sources, render, suggest};
@@ -112,11 +112,8 @@ fn domain(text: &str, sources: &mut Sources) -> Result<File, EnvironmentError> {
 
 fn state(text: &str, sources: &mut Sources) -> Result<InitialState, EnvironmentError> {
     let (source, file) = add("state.json", text, sources);
-    let (facts, diagnostics) = json::read::<IndexMap<Spanned<String>, Option<bool>>>(&source, file);
-    let facts = right("state", facts, &diagnostics, sources)?;
-    Ok(InitialState {
-        facts: facts.into_iter().map(|(fact, holds)| (fact.value, (holds, fact.span))).collect(),
-    })
+    let (facts, diagnostics) = json::read::<IndexMap<Spanned<String>, StateEntry>>(&source, file);
+    Ok(right("state", facts, &diagnostics, sources)?.into_iter().collect())
 }
 
 fn add(name: &str, text: &str, sources: &mut Sources) -> (Source, FileId) {

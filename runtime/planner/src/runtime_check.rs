@@ -7,11 +7,12 @@ use std::sync::mpsc::{self, Receiver, Sender, TryRecvError};
 
 use motet_compiler::{Forecast, WorldTracker};
 use motet_graph::Value;
-use motet_robots::scene::Entity;
+use motet_robots::scene::{Entity, Grip};
 use motet_runtime::{
     Answer, CheckId, Command, DeferredMotion, DriverEvent, Effect, Event, GoalId, Outcome, Pattern, Query,
     Time, Verification, Verifier,
 };
+use motet_stdlib::lang;
 
 /// Time limit of the engine for a verdict: longer than any search within its budget.
 pub const WITHIN: Time = Time::from_nanos(10_000_000_000);
@@ -134,6 +135,16 @@ impl Verifier for Guard {
     }
 }
 
+/// Grip that a reading tells: how the hand holds a thing.
+pub(crate) fn grip(query: &Query, value: &Value) -> Option<Grip> {
+    match (query, value) {
+        (Query::Field { entity, field }, Value::Pose(pose)) if field == lang::GRIP => {
+            Grip::new(entity.clone(), pose.xyz, pose.quaternion)
+        }
+        _ => None,
+    }
+}
+
 /// Tracker of the scene along a run.
 #[derive(Debug)]
 struct RunTracker {
@@ -178,6 +189,9 @@ impl RunTracker {
                 if let [Pattern::Is(Value::Entity(entity))] = args.as_slice() {
                     self.course.observed(fluent, entity, *holds);
                 }
+            }
+            DriverEvent::Observed { query, answer: Answer::Value(value) } => {
+                grip(query, value).into_iter().for_each(|grip| self.course.felt(grip));
             }
             DriverEvent::Observed { .. }
             | DriverEvent::Acknowledged { .. }

@@ -10,7 +10,7 @@ use motet_geometry::planning::SearchBudget;
 use motet_robots::builtin;
 use motet_robots::card::Robot;
 use motet_robots::clearance::ClearanceOverride;
-use motet_robots::scene::{self, Scene};
+use motet_robots::scene::{self, Scene, StateEntry};
 use motet_robots::urdf::Urdf;
 use motet_runtime::{Pattern, Query, Truth};
 use motet_syntax::ast::File;
@@ -569,11 +569,8 @@ fn read_state(
 ) -> Result<InitialState, ProjectError> {
     let (name, bytes) = read_inline(path, "--state")?;
     let (source, file, mut diagnostics) = add_source(&name, &bytes, sources);
-    let (facts, more) = json::read::<IndexMap<Spanned<String>, Option<bool>>>(&source, file);
+    let (facts, more) = json::read::<IndexMap<Spanned<String>, StateEntry>>(&source, file);
     diagnostics.extend(more);
     require("state", &diagnostics, sources, sink)?;
-    let facts = facts.ok_or_else(|| invalid("state", diagnostics, sources))?;
-    Ok(InitialState {
-        facts: facts.into_iter().map(|(fact, holds)| (fact.value, (holds, fact.span))).collect(),
-    })
+    Ok(facts.ok_or_else(|| invalid("state", diagnostics, sources))?.into_iter().collect())
 }

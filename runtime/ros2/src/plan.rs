@@ -205,7 +205,7 @@ fn witness_of(json: &serde_json::Value) -> Option<Witness> {
         let tip = grasp.get("map_from_tip")?;
         let xyz = numbers(tip.get("xyz"))?.try_into().ok()?;
         let quaternion = numbers(tip.get("quaternion_xyzw"))?.try_into().ok()?;
-        Some(motet_graph::Grasp { xyz, quaternion, width: number(grasp.get("width"))? })
+        Some(motet_graph::Grasp { xyz, quaternion, width: number(grasp.get("width"))?, object: None })
     });
     let clearance = number(json.pointer("/margins/clearance")).unwrap_or(0.0);
     let keeps = motet_graph::Clearance::default();

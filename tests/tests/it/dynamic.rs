@@ -31,8 +31,10 @@ impl RobotInRoom {
             Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../examples")).join(format!("{name}.motet"));
         let mut sources = Sources::default();
         let facts = engine.map(|engine| engine.snapshot().state()).unwrap_or_default().into_iter();
-        let state =
-            InitialState { facts: facts.map(|(fact, holds)| (fact, (holds, Span::default()))).collect() };
+        let state = InitialState {
+            facts: facts.map(|(fact, holds)| (fact, (holds, Span::default()))).collect(),
+            grip: None,
+        };
         let session =
             Session::builder().robot(&self.robot).scene(&self.scene).state(&state).build(&mut sources);
         let said = session.input_diagnostics().to_vec();

@@ -420,6 +420,9 @@ pub struct Grasp {
     pub quaternion: [f64; 4],
     /// Required opening of the hand in m.
     pub width: f64,
+    /// Pose of what the hand then holds, in the frame of its tip.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub object: Option<super::Pose>,
 }
 
 /// A change of a fact that a successful call makes.

@@ -226,8 +226,10 @@ fn bad_motion(motion: &Motion) -> Option<&'static str> {
         .grasp
         .iter()
         .flat_map(|grasp| grasp.xyz.iter().chain(&grasp.quaternion).chain([&grasp.width]));
+    let object = witness.grasp.iter().filter_map(|grasp| grasp.object.as_ref());
+    let object = object.flat_map(|pose| pose.xyz.iter().chain(&pose.quaternion));
     let margins = [&witness.clearance].into_iter().chain(&witness.limit).chain(&witness.payload);
     let margins = margins.chain([&witness.keeps.base, &witness.keeps.arm]);
-    let is_number = path.chain(grasp).chain(margins).all(|value| value.is_finite());
+    let is_number = path.chain(grasp).chain(object).chain(margins).all(|value| value.is_finite());
     (!is_number).then_some("has a number that is not finite")
 }

@@ -109,7 +109,12 @@ fn sample() -> Graph {
                 Box::new(Witness {
                     joints: vec!["arm_lift".into()],
                     path: vec![Waypoint { base: [0.0, 1.0, 2.0], joints: vec![0.5], at: 0.0, ramp: 0.0 }],
-                    grasp: Some(Grasp { xyz: [0.1; 3], quaternion: [0.0, 0.0, 0.0, 1.0], width: 0.08 }),
+                    grasp: Some(Grasp {
+                        xyz: [0.1; 3],
+                        quaternion: [0.0, 0.0, 0.0, 1.0],
+                        width: 0.08,
+                        object: None,
+                    }),
                     clearance: 0.02,
                     keeps: Clearance { base: 0.04, arm: 0.01 },
                     limit: Some(0.1),

@@ -5,12 +5,17 @@
 //! rest: they accelerate evenly, move evenly, and brake evenly (a trapezoidal profile). The slowest of them
 //! decides the time of the edge. A path is not left, because no edge is blended into the next.
 
+use nalgebra::Isometry3;
+
 use super::{Configuration, RobotModel};
 
 /// Greatest speeds of joints whose URDF gives none, in rad/s and m/s.
 const DEFAULT_SPEED: [f64; 2] = [1.0, 0.25];
 /// Seconds within which a joint reaches its greatest speed, where its card gives no acceleration.
 const JOINT_RAMP: f64 = 0.5;
+/// Greatest accelerations of a hand that holds something, in m/s² and rad/s²: in physics, what is held at a
+/// slant slips at the full speed of an arm.
+const LOADED: [f64; 2] = [1.0, 3.0];
 /// Least speed and acceleration of an edge in parts per second, which keeps every time finite.
 const SLOWEST: f64 = 1e-9;
 /// Times are rounded up to this many parts of a second.
@@ -73,10 +78,25 @@ impl MotionLimits {
     /// Time at each configuration of a path, 0 at the first. O(path · degrees of freedom).
     #[must_use]
     pub fn times(&self, path: &[Configuration], share: SpeedShare) -> Vec<PathTime> {
+        self.times_with_load(path, share, None)
+    }
+
+    /// The same with something in the hand of a model: the hand accelerates no more than 1 m/s² and
+    /// 3 rad/s², so that what its fingers hold by friction does not slip.
+    #[must_use]
+    pub fn times_with_load(
+        &self,
+        path: &[Configuration],
+        share: SpeedShare,
+        model: Option<&RobotModel>,
+    ) -> Vec<PathTime> {
         let mut now = 0.0;
         let edges = path.windows(2).map(|edge| {
             let [from, to] = edge else { return PathTime::default() };
             let [cruise, ramp] = self.edge(from, to, share);
+            let factor = model.map_or(1.0, |model| slowed(model, [from, to], cruise * ramp));
+            let slow = |secs: f64| if factor > 1.0 { round_up(secs * factor) } else { secs };
+            let [cruise, ramp] = [slow(cruise), slow(ramp)];
             now += cruise + ramp;
             PathTime { at: now, ramp }
         });
@@ -108,6 +128,20 @@ impl MotionLimits {
         let ramp = round_up(1.0 / (acceleration * cruise)).min(cruise);
         [cruise, ramp]
     }
+}
+
+/// Factor of the time of an edge at which the hand accelerates no more than with a load. The edge has an
+/// acceleration of 1 / `accelerates` parts per second squared.
+fn slowed(model: &RobotModel, [from, to]: [&Configuration; 2], accelerates: f64) -> f64 {
+    let Some(hand) = model.hand().filter(|_| accelerates > 0.0) else { return 1.0 };
+    let tip = |share| model.map_from_links(&from.towards(to, share)).get(hand.tip).copied();
+    let tips: Vec<_> = (0..=4).filter_map(|step| tip(f64::from(step) / 4.0)).collect();
+    let ways = tips.windows(2).filter_map(|pair| Some(pair.first()?.inverse() * pair.last()?));
+    let add = |[far, turn]: [f64; 2], way: Isometry3<f64>| {
+        [far + way.translation.vector.norm(), turn + way.rotation.angle()]
+    };
+    let [far, turn] = ways.fold([0.0; 2], add);
+    ((far / LOADED[0]).max(turn / LOADED[1]) / accelerates).sqrt().max(1.0)
 }
 
 fn round_up(secs: f64) -> f64 {

@@ -8,7 +8,7 @@ mod entities;
 mod evaluator;
 mod facts;
 
-pub(crate) use cells::{Beliefs, CellId, Facts};
+pub(crate) use cells::{Beliefs, Cell, CellId, Facts};
 pub(crate) use entities::{Entities, OfKind};
 pub(crate) use evaluator::{Evaluator, Freshness, is_held};
 pub(crate) use facts::{BeliefChange, FactStanding, covers, truth_of};

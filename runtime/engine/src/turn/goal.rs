@@ -1,9 +1,9 @@
 //! Goals: what drivers report of them, and how they are ended early.
 
 use super::Turn;
-use crate::belief::{CellId, Freshness, is_held};
+use crate::belief::{Cell, CellId, Freshness, is_held};
 use crate::cleanup::strike;
-use crate::effect::{Effect, Fault};
+use crate::effect::{Effect, Fault, PlannedMotion};
 use crate::event::{DriverEvent, FailureReport, Outcome};
 use crate::ids::GoalId;
 use crate::query::{Answer, Query};
@@ -14,6 +14,7 @@ use motet_graph::draw::Names;
 use motet_graph::{CallNode, FailureId, NodeId, NodeKind, TIMEOUT, Value};
 use motet_stdlib::lang;
 use smol_str::SmolStr;
+use std::sync::Arc;
 
 impl Turn<'_> {
     /// A driver reports.
@@ -32,6 +33,9 @@ impl Turn<'_> {
                 }
             }
             DriverEvent::Ended { goal, outcome } => {
+                if let (Outcome::Success(_), Some(node)) = (&outcome, self.run.goals.node(goal)) {
+                    self.grasped(node);
+                }
                 if let Some((node, wish)) = self.close(goal) {
                     self.goal_ended(node, goal, wish, outcome);
                 }
@@ -180,6 +184,24 @@ impl Turn<'_> {
         Some((node, std::mem::replace(&mut state.wish, GoalIntent::None)))
     }
 
+    /// Notes how the hand holds what it has grasped, unless the driver has told it meanwhile: as the witness
+    /// says, and without one nobody knows.
+    fn grasped(&mut self, node: NodeId) {
+        let is_grasp = |motion: &&Arc<PlannedMotion>| motion.query.starts_with(lang::REACH);
+        let command = self.run.command(self.plan, node);
+        let Some(motion) = command.iter().flat_map(|command| &command.motions).find(is_grasp) else { return };
+        let Some(Value::Entity(of)) = motion.args.first() else { return };
+        let since = self.run.nodes.at(node.index()).seen;
+        let id = self.run.beliefs.intern(Query::Field { entity: of.clone(), field: lang::GRIP.into() });
+        let is_told = |cell: &Cell| cell.seen > since && matches!(cell.answer, Answer::Value(_));
+        if self.run.beliefs.cell(id).is_some_and(is_told) {
+            return;
+        }
+        let grasp = motion.witness.as_ref().and_then(|witness| witness.grasp.as_ref());
+        let pose = grasp.and_then(|grasp| grasp.object.clone()).map(Value::Pose);
+        self.run.beliefs.observe(id, pose.map_or(Answer::Unknown, Answer::Value), self.run.now);
+    }
+
     #[inline(always)]
     fn goal_ended(&mut self, node: NodeId, goal: GoalId, wish: GoalIntent, outcome: Outcome) {
         match (outcome, wish) {
@@ -325,11 +347,12 @@ impl Turn<'_> {
 
     pub(super) fn observed(&mut self, query: Query, answer: Answer) {
         let mut known = self.run.beliefs.find_query(&query);
-        if known.is_none()
-            && let Query::Fact { fluent, .. } = &query
-            && self.run.beliefs.fluents.contains_key(fluent)
-            && self.run.beliefs.has_room()
-        {
+        let is_kept = |query: &Query| match query {
+            Query::Fact { fluent, .. } => self.run.beliefs.fluents.contains_key(fluent),
+            Query::Field { field, .. } => field == lang::GRIP,
+            Query::Measure { .. } => false,
+        };
+        if known.is_none() && is_kept(&query) && self.run.beliefs.has_room() {
             self.hear(&query);
             known = Some(self.run.beliefs.intern(query));
         }

@@ -1,7 +1,7 @@
 //! The state that an engine hands out, and an engine that starts from it.
 
-use motet_graph::Value;
 use motet_graph::arbitrary::{StepSketch, graph};
+use motet_graph::{Grasp, Motion, NodeKind, Pose, Term, Value, Verdict, Waypoint, Witness};
 use motet_runtime::{
     Answer, DriverEvent, Effect, Engine, Event, Outcome, Pattern, Query, Snapshot, StartState, Time,
 };
@@ -78,4 +78,47 @@ fn snapshot_words_of_the_language_stand_in_back_quotes() {
         let fact = format!("at(`{word}`, shelf)");
         assert!(state.contains(&(fact.clone(), Some(true))), "{fact} is not among {state:?}");
     }
+}
+
+/// Grips in the snapshot after a pick of the mug, whose witness has this one, while the driver told these.
+fn grips(planned: Option<Pose>, told: &[Pose]) -> Vec<Value> {
+    let mut graph = graph(&[StepSketch::pick("mug")]);
+    let witness = planned.map(|object| {
+        let grasp =
+            Grasp { xyz: [0.0; 3], quaternion: [0.0, 0.0, 0.0, 1.0], width: 0.1, object: Some(object) };
+        let path = vec![Waypoint { base: [0.0; 3], joints: vec![], at: 0.0, ramp: 0.0 }];
+        let (joints, clearance, keeps) = (vec![], 0.1, motet_graph::Clearance::default());
+        Box::new(Witness { joints, path, grasp: Some(grasp), clearance, keeps, limit: None, payload: None })
+    });
+    let verdict = if witness.is_some() { Verdict::Proven } else { Verdict::Deferred };
+    let args = vec![Term::Literal(Value::Entity("mug".into()))];
+    let motion = Motion { query: "reach".into(), args, verdict, witness, leaves: None, why: None };
+    let NodeKind::Call(call) = &mut graph.nodes[0].kind else { panic!("no call") };
+    call.motion = Some(motion);
+    let mut engine = Engine::new(graph, &StartState::default()).unwrap();
+    let mut out = Vec::new();
+    engine.handle(Time::ZERO, Event::Begin, &mut out);
+    let goal = out.iter().find_map(|effect| match effect {
+        Effect::Start { goal, .. } => Some(*goal),
+        _ => None,
+    });
+    let (goal, query) = (goal.unwrap(), Query::Field { entity: "mug".into(), field: "grip".into() });
+    for pose in told {
+        let answer = Answer::Value(Value::Pose(*pose));
+        let told = DriverEvent::Observed { query: query.clone(), answer };
+        engine.handle(Time::from_secs(1.0), Event::Driver(told), &mut out);
+    }
+    let ended = DriverEvent::Ended { goal, outcome: Outcome::Success(None) };
+    engine.handle(Time::from_secs(2.0), Event::Driver(ended), &mut out);
+    let readings = engine.snapshot().readings.into_iter();
+    readings.filter(|reading| reading.query == query).map(|reading| reading.value).collect()
+}
+
+#[test]
+fn snapshot_after_a_grasp_has_the_grip_of_the_driver_or_else_of_the_witness() {
+    let pose = |x| Pose { xyz: [x, 0.0, 0.1], quaternion: [0.0, 0.0, 0.0, 1.0] };
+    assert_eq!(grips(Some(pose(0.0)), &[]), [Value::Pose(pose(0.0))]);
+    assert_eq!(grips(Some(pose(0.0)), &[pose(0.01), pose(0.02)]), [Value::Pose(pose(0.02))]);
+    assert_eq!(grips(None, &[pose(0.01)]), [Value::Pose(pose(0.01))]);
+    assert_eq!(grips(None, &[]), []);
 }

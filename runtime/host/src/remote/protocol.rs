@@ -133,6 +133,9 @@ pub struct Hello {
 pub struct StateFact {
     pub query: Query,
     pub holds: bool,
+    /// Value of a field, as of `grip`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub value: Option<motet_graph::Value>,
 }
 
 /// A primitive that a policy calls.

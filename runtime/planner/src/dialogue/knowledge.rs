@@ -3,16 +3,17 @@
 
 use indexmap::IndexMap;
 use motet_compiler::{InitialFact, InitialState, Session};
-use motet_graph::{Graph, Value};
+use motet_graph::{CallNode, Graph, Node, NodeKind, Value};
 use motet_requests::{Preference, ReportedLocation, RequestContext};
-use motet_robots::scene::{Entity, EntityShape, Placement, Scene};
+use motet_robots::scene::{Entity, EntityShape, Grip, Placement, Scene};
 use motet_runtime::{
     Engine, Pattern, PendingCleanup, Query, Snapshot, StartState, ToldSupport, ToldThing, Truth,
 };
-use motet_stdlib::lang::{PLACING, entities, fluents, kinds};
+use motet_stdlib::lang::{self, PLACING, entities, fluents, kinds};
 use motet_syntax::{Span, print};
 use smol_str::SmolStr;
 
+use crate::runtime_check::grip;
 use crate::vision::Sightings;
 
 /// Knowledge beyond a scene.
@@ -31,6 +32,8 @@ pub struct Knowledge {
     pub(super) seen: Sightings,
     /// Things of which the driver was not told yet.
     pub(super) untold: Vec<ToldThing>,
+    /// Grip of the thing that the hand took last, if it is known.
+    grip: Option<Grip>,
     /// Preferences of the person.
     pub(super) prefers: Vec<Preference>,
 }
@@ -66,6 +69,14 @@ impl Knowledge {
         self.some.retain(|query| !speaks(query));
         self.some.extend(snapshot.some);
         self.pending = snapshot.pending;
+        // What a run has grasped, it tells; one that grasps nothing leaves the hand as it was.
+        let is_grasp = |node: &Node| match &node.kind {
+            NodeKind::Call(CallNode { motion: Some(motion), .. }) => motion.query.starts_with(lang::REACH),
+            _ => false,
+        };
+        self.grip.take_if(|_| graph.nodes.iter().any(is_grasp));
+        let told = snapshot.readings.iter().filter_map(|one| Some((one.at, grip(&one.query, &one.value)?)));
+        self.grip = told.max_by_key(|(at, _)| *at).map(|(_, grip)| grip).or(self.grip.take());
     }
 }
 
@@ -163,6 +174,10 @@ impl Knowledge {
         // What the scene says of the joints was said of the start.
         placed.robot.joints = IndexMap::new();
         placed.robot.holding = Some(situation.holding.clone());
+        let is_held = |grip: &&Grip| situation.holding.as_ref() == Some(&grip.of);
+        if let Some(grip) = self.grip.as_ref().filter(is_held) {
+            placed.robot.grip = Some(grip.clone());
+        }
         let mut unplaced = Vec::new();
         for (id, support) in &situation.supports {
             let guess = support.as_ref().and_then(|support| on_top(scene, id, support));
@@ -226,7 +241,7 @@ impl Knowledge {
             };
             facts.insert(text, (known, Span::default()));
         }
-        InitialState { facts }
+        InitialState { facts, grip: self.grip.clone() }
     }
 
     /// Start of the next run, whose policy was checked in `session`: the session's facts, of which a graph

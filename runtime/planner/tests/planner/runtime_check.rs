@@ -2,10 +2,11 @@
 //! needs no geometry.
 
 use super::common::{hsr, kitchen, session, walled};
-use motet_compiler::Session;
-use motet_graph::Graph;
+use motet_compiler::{Forecast, Session};
+use motet_graph::{CallNode, Graph, NodeKind, Pose, Value};
+use motet_planner::dialogue::Knowledge;
 use motet_planner::runtime_check::{CheckMode, Guard, WITHIN};
-use motet_robots::scene::{Entity, Placement, Scene};
+use motet_robots::scene::{Entity, Grip, Placement, Scene};
 use motet_runtime::journal::{EngineReplay, JournalEntry, JournalHead, StepEntry};
 use motet_runtime::{
     CheckId, DeferredMotion, Driver, Effect, Engine, EngineSettings, Event, Observer, RunControl, RunEnd,
@@ -244,4 +245,74 @@ fn runtime_check_beside_the_run_does_not_block_the_loop() {
     let end = run(&mut engine, &mut sim, &mut patient, Time::ZERO);
     assert!(matches!(end, RunEnd::Done { .. }), "{end:?}, {:#?}", patient.host.told);
     assert_eq!(patient.glances, 5, "the world went on meanwhile");
+}
+
+/// Grip of the pick of a graph, as its witness says.
+fn grip_of(graph: &Graph) -> Pose {
+    let mut calls = graph.nodes.iter().filter_map(|node| match &node.kind {
+        NodeKind::Call(CallNode { motion: Some(motion), .. }) if motion.query == "reach" => Some(motion),
+        _ => None,
+    });
+    let witness = calls.next().unwrap().witness.as_ref().expect("the motion is proven");
+    witness.grasp.as_ref().unwrap().object.unwrap()
+}
+
+#[test]
+fn knowledge_after_a_run_has_the_grip_of_what_it_took() {
+    let (scene, session) = (kitchen(), session(&kitchen()));
+    let graph = compile(&session, "policy take for hsr {\n go(kitchen_table)\n pick(mug_1)\n}");
+    let entities = scene.entities.iter().map(|(id, entity)| (id.clone(), entity.kind.clone())).collect();
+    let start = StartState { entities, ..StartState::default() };
+    let mut sim = Sim::new(&hsr(), &scene, SimOptions::default());
+    let mut engine = Engine::new(graph.clone(), &start).unwrap().with_capabilities(sim.capabilities());
+    let end = run(&mut engine, &mut sim, &mut (), Time::ZERO);
+    assert!(matches!(end, RunEnd::Done { .. }), "{end:?}");
+    let mut known = Knowledge::default();
+    known.learn(&engine, &session);
+    let (placed, _) = known.placed(&scene, [0.0; 3]).unwrap();
+    let Pose { xyz, quaternion } = grip_of(&graph);
+    assert_eq!(placed.robot.grip, Grip::new("mug_1".into(), xyz, quaternion));
+    assert_eq!(known.state().grip, placed.robot.grip);
+    // A run that takes nothing leaves the hand as it was; one that takes something else does not.
+    let learn = |known: &mut Knowledge, policy: &str| {
+        known.learn(&Engine::new(compile(&session, policy), &start).unwrap(), &session);
+        known.state().grip
+    };
+    assert_eq!(learn(&mut known, "policy drive for hsr {\n go(user)\n}"), placed.robot.grip);
+    assert_eq!(learn(&mut known, "policy take for hsr {\n go(apple)\n pick(apple)\n}"), None);
+}
+
+#[test]
+fn tracker_motions_hold_the_thing_as_the_robot_felt_it() {
+    let entity = |id: &str| Value::Entity(id.into());
+    let mut tracker = session(&kitchen()).world_tracker().unwrap();
+    let step = |tracker: &mut motet_compiler::WorldTracker, primitive: &str, of: &[(&str, &str)]| {
+        let args: Vec<_> = of.iter().map(|(name, id)| ((*name).into(), entity(id))).collect();
+        tracker.began(primitive);
+        tracker.succeeded(primitive, &args, None);
+    };
+    step(&mut tracker, "go", &[("to", "kitchen_table")]);
+    tracker.began("pick");
+    // The driver tells it before the hand is back.
+    let upside_down = Grip::new("mug_1".into(), [0.0, 0.0, 0.09], [0.0, 0.7071, 0.0, 0.7071]).unwrap();
+    tracker.felt(upside_down.clone());
+    let pick = [("object".into(), entity("mug_1")), ("from".into(), Value::Case("auto".into()))];
+    tracker.succeeded("pick", &pick, None);
+    step(&mut tracker, "go", &[("to", "user")]);
+    let (thing, person) = (entity("mug_1"), entity("user"));
+    let args = [("object".into(), thing.clone()), ("to".into(), person.clone())];
+    let held = |tracker: &motet_compiler::WorldTracker| {
+        let forecast = tracker.motion("handover", (&args, None), "offer", &[thing.clone(), person.clone()]);
+        let Forecast::Feasible { witness, .. } = forecast else { panic!("{forecast:?}") };
+        let Pose { xyz, quaternion } = witness.grasp.unwrap().object.unwrap();
+        Grip::new("mug_1".into(), xyz, quaternion).unwrap().tip_from_object
+    };
+    let far = |one: Placement, other: Placement| {
+        let parts = one.xyz.into_iter().chain(one.rpy).zip(other.xyz.into_iter().chain(other.rpy));
+        parts.map(|(one, other)| (one - other).abs()).fold(0.0, f64::max)
+    };
+    assert!(far(held(&tracker), upside_down.tip_from_object) < 1e-3, "{:?}", held(&tracker));
+    // The grip of another thing is none of what it holds.
+    tracker.felt(Grip { of: "apple".into(), ..upside_down.clone() });
+    assert!(far(held(&tracker), upside_down.tip_from_object) < 1e-3);
 }

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use motet_robots::scene::Scene;
+use motet_robots::scene::{Grip, Scene};
 use nalgebra::{Isometry3, Translation3, Vector3};
 
 use super::candidates::{GraspCandidate, grasp_candidates, in_order, rank};
@@ -47,6 +47,13 @@ impl SceneState {
             state.held = grip.map(|grip| (id.clone(), grip));
         }
         state
+    }
+
+    /// The same with this grip of what the hand holds; `None` if it holds something else.
+    #[must_use]
+    pub fn gripping(&self, grip: &Grip) -> Option<Self> {
+        let held = Some((grip.of.clone(), isometry(&grip.tip_from_object)));
+        self.holds(&grip.of).then(|| Self { held, ..self.clone() })
     }
 }
 

@@ -81,6 +81,24 @@ fn timing_keeps_the_limits_and_uses_them() {
 }
 
 #[test]
+fn timing_with_something_in_the_hand_accelerates_it_gently() {
+    let RobotWithBody { robot, urdf } = builtin::robot("anymal_z1").unwrap();
+    let model = RobotModel::new(&robot, &urdf);
+    let from = Configuration { base: [0.0; 3], joints: model.tree().neutral() };
+    let mut to = from.clone();
+    to.joints[model.tree().dof("joint1").unwrap()] += 1.0;
+    let limits = MotionLimits::of(&model);
+    let path = [from, to];
+    let last = |load| *limits.times_with_load(&path, SpeedShare::FULL, load).last().unwrap();
+    let (fast, gentle) = (last(None), last(Some(&model)));
+    assert_eq!(fast, *limits.times(&path, SpeedShare::FULL).last().unwrap());
+    // The hand turns by 1 rad with the shoulder, and accelerates with 3 rad/s².
+    let turns = |time: PathTime| 1.0 / ((time.at - time.ramp) * time.ramp);
+    assert!(turns(fast) > 3.5, "{fast:?}: {}", turns(fast));
+    assert!((2.9..3.001).contains(&turns(gentle)), "{gentle:?}: {}", turns(gentle));
+}
+
+#[test]
 fn timing_takes_the_accelerations_of_the_card() {
     let RobotWithBody { mut robot, urdf } = builtin::robot("hsr").unwrap();
     let path = |model: &RobotModel, joint: &str| {
