@@ -108,9 +108,10 @@ fn physics_gets_the_robot_the_scene_and_the_seed_of_the_run() {
     place.run(&format!("{line} odd.json")).check(2, &["err:fly"]);
     // How the hand holds a thing at the start is told, too.
     let state = r#"{"holding(mug_1)": true, "grip(mug_1)": {"xyz": [0, 0, 0.1]}}"#;
-    let hello =
-        ["run", "say.motet", "--robot", "hsr", "--scene", "kitchen", "--state", state, "--speed", "max"];
-    place.run_args(&[&hello[..], &["--driver", "mujoco", "--record", "held"]].concat()).check(0, &[]);
+    let words = "run say.motet --robot hsr --scene kitchen --speed max --driver mujoco --state";
+    let mut words: Vec<String> = words.split(' ').map(str::to_owned).collect();
+    words.push(state.to_owned());
+    place.run_args(&words).check(0, &[]);
     place
         .run("run say.motet --driver mujoco")
         .check(2, &["err:`--driver mujoco` needs a scene: give --scene"]);
