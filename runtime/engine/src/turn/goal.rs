@@ -198,7 +198,7 @@ impl Turn<'_> {
             return;
         }
         let grasp = motion.witness.as_ref().and_then(|witness| witness.grasp.as_ref());
-        let pose = grasp.and_then(|grasp| grasp.object.clone()).map(Value::Pose);
+        let pose = grasp.and_then(|grasp| grasp.object).map(Value::Pose);
         self.run.beliefs.observe(id, pose.map_or(Answer::Unknown, Answer::Value), self.run.now);
     }
 
