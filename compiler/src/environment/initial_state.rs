@@ -107,12 +107,6 @@ impl InitialState {
             };
             let why = elaborator.diagnostics.into_iter().next();
             match (fact, why) {
-                (Some(fact), None) if library.fluent(fact.fluent).is_some_and(|def| def.derived) => {
-                    let why = "it derives from a motion, which the scene decides".to_owned();
-                    let remedy =
-                        Some("remove it, and let the scene say where the robot and the thing are".to_owned());
-                    diagnostics.push(NotAFact { span: *span, text: text.clone(), why, remedy }.into());
-                }
                 (Some(fact), None) => {
                     patterns += usize::from(fact.args.contains(&None));
                     if patterns > MAX_PATTERNS {
