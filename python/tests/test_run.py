@@ -230,8 +230,8 @@ def test_the_laws_are_checked_on_a_call_that_has_needs_or_ends_at_once():
     pick = "policy p for hsr { pick(mug_1) }"
     found = motet.check_driver(Quick, pick, scene="kitchen", state={"at(robot, mug_1)": True, "visible(mug_1)": True})
     assert found.ok and "held" in found.scenes, str(found)
-    with pytest.raises(motet.InputError, match="observes `locked.* before its first call"):
-        motet.check_driver(Quick, "policy p for hsr { wait until not locked(fridge_1) within 5 s go(shelf) }", scene="kitchen")
+    with pytest.raises(motet.InputError, match="observes `battery.* before its first call"):
+        motet.check_driver(Quick, "policy p for hsr { if battery() > 20 % { go(shelf) } }", scene="kitchen")
 
 
 def test_a_failure_that_the_primitive_does_not_declare_is_told():
