@@ -127,8 +127,8 @@ pub fn check(
     Ok(DriverResult { driver, broken })
 }
 
-/// First call of a policy. What the policy observes before it is answered with true, as by a robot in the state
-/// that the call needs.
+/// First call of a policy. What the policy observes before it is answered with true, as by a robot in the
+/// state that the call needs.
 ///
 /// # Errors
 ///
