@@ -328,8 +328,7 @@ impl<'a> Domain<'a> for MotionChecker<'a> {
             is_so || may_be_unknown
         });
         if self.proof.drops.contains(&(id, truth)) {
-            let why = || SmolStr::new_static("what the hand held may have dropped");
-            worlds.lost = worlds.lost.or_else(|| Some(why()));
+            worlds.lost.get_or_insert(SmolStr::new_static("what the hand held may have dropped"));
         }
         self.worlds = worlds;
         self.is_live()

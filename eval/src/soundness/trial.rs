@@ -367,8 +367,8 @@ impl Run<'_> {
             }
             _ => {}
         }
-        let is_parallel = nodes.iter().any(|node| matches!(node.kind, NodeKind::Parallel { .. }));
-        self.world.is_tested = !is_parallel && !self.testing.is_empty();
+        let is_parallel = || nodes.iter().any(|node| matches!(node.kind, NodeKind::Parallel { .. }));
+        self.world.is_tested = !self.testing.is_empty() && !is_parallel();
     }
 
     /// A guard refuses: is it right?

@@ -311,7 +311,7 @@ impl<'d> World<'d> {
         Running { id, touches, unfinished, makes, flips, ends, outcome, held: None }
     }
 
-    /// What a hand holds drops: nothing that the step which took it has made need be so any more.
+    /// Lets what a hand holds drop: nothing that the step which took it has made need be so any more.
     fn drop_held(&mut self, query: &Query) {
         let Query::Fact { fluent, .. } = query else { return };
         let is_open = self.mood == Mood::Adversarial && self.is_tested && self.running.is_empty();

@@ -318,7 +318,7 @@ def rows(command, args):
 def carried(jobs, items):
     """Results of `trial` in the order of its parameters, of which so many are carried out at a time."""
     if jobs == 1:
-        yield from (trial(*one) for one in items)
+        yield from map(trial_of, items)
         return
     # Nothing that the parent holds, such as a picture's context, is safe in a copy of it.
     with multiprocessing.get_context("spawn").Pool(jobs) as pool:

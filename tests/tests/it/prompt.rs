@@ -146,8 +146,8 @@ const POSING: &[&str] = &[
     "{\"do\": \"open\"}",
 ];
 
-/// What is sent of a room and of what was done in it, with things, results and words of this name: the
-/// prompts, and the exchange of the dialect.
+/// Texts that a model gets of a room and of what was done in it, with things, results and words of this name:
+/// the prompts, and the exchange of the dialect.
 fn sent(name: &str, text: &str) -> Vec<String> {
     let robot = setup::robot("hsr");
     let mut scene = setup::scene("kitchen");
@@ -206,7 +206,7 @@ fn prompt_name_or_text_that_poses_as_another_stays_in_its_place() {
     }
 }
 
-/// What a finding quotes of a reply is in its line: one finding is one line of the next message.
+/// Quotes of a reply stay in the line of their finding: one finding is one line of the next message.
 #[test]
 fn prompt_finding_of_a_reply_that_poses_as_another_is_one_line() {
     let (robot, scene) = (setup::robot("hsr"), setup::scene("kitchen"));

@@ -127,11 +127,7 @@ fn stop(bench: &mut DriverBench, goal: GoalId, subject: &ConformanceSubject<'_>,
 
 /// Held, it keeps still, and then goes on.
 fn held(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) {
-    let goal = bench.start(&subject.command);
-    if !bench.runs(goal, subject.patience) || bench.until(CROSSING, |event| ends(event, goal)).is_some() {
-        return;
-    }
-    bench.driver.hold(bench.now, goal);
+    let Some(goal) = begin_hold(bench, subject) else { return };
     match bench.until(subject.patience, |event| matters(event, goal)) {
         Some(DriverEvent::NotHeld { .. }) => {}
         Some(other) => bench.breach(Law::Held, format!("`{other}` while it is held")),
@@ -164,12 +160,18 @@ fn stopped_while_held(bench: &mut DriverBench, subject: &ConformanceSubject<'_>)
 
 /// Starts a goal and holds it for a moment. None where it does not run.
 fn hold(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) -> Option<GoalId> {
+    let goal = begin_hold(bench, subject)?;
+    bench.until(subject.moment, |_| false);
+    Some(goal)
+}
+
+/// Starts a goal and tells the driver to hold it. None where it does not run, or ends at once.
+fn begin_hold(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) -> Option<GoalId> {
     let goal = bench.start(&subject.command);
     if !bench.runs(goal, subject.patience) || bench.until(CROSSING, |event| ends(event, goal)).is_some() {
         return None;
     }
     bench.driver.hold(bench.now, goal);
-    bench.until(subject.moment, |_| false);
     Some(goal)
 }
 
