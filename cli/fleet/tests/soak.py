@@ -114,13 +114,13 @@ class Soak(Cases):
                 time.sleep(0.05)
         raise AssertionError("the server does not start")
 
-    def start_agent(self, robot):
+    def start_agent(self, robot, speed=None):
         number = int(robot[1:])
         port = self.port + 1 if number % 3 == 0 else self.port
         log = open(self.folder / (robot + ".log"), "a")
         command = [self.args.fleet, "agent", "--robot", robot, "--server", "nats://127.0.0.1:%d" % port, "--login",
                    str(self.login(robot)), "--trust", str(self.folder / "anna.pub"), "--card", "hsr", "--scene", "kitchen",
-                   "--folder", str(self.folder / robot), "--speed", str(self.args.speed), "--motet", self.args.motet]
+                   "--folder", str(self.folder / robot), "--speed", str(speed or self.args.speed), "--motet", self.args.motet]
         self.agents[robot] = subprocess.Popen(command, stdout=log, stderr=log)
 
     def send(self, number):
