@@ -2,7 +2,7 @@
 
 use motet_client::{Client, ClientSettings, ServerUrl};
 use motet_compiler::Session;
-use motet_decode::export::Dialect;
+use motet_client::dialect::Dialect;
 use motet_decode::{Grammar, Subset};
 use motet_planner::model::{Message, Model as _, ReplyEvent, Role};
 use std::io::{Read as _, Write as _};

@@ -4,8 +4,9 @@ use std::path::Path;
 use std::time::Duration;
 
 use clap::{Args, Subcommand, ValueEnum};
+use motet_client::dialect::{self, Dialect, Prompt, probe_body, request_body};
 use motet_client::{Client, ClientSettings, ServerUrl, content};
-use motet_decode::export::{self, Dialect, Format as Notation, Header, Prompt, probe_body, request_body};
+use motet_decode::export::{self, Format as Notation, Header};
 use motet_decode::{Grammar, Modifiers, Subset};
 use serde_json::Value;
 
@@ -137,7 +138,7 @@ fn print(args: &GrammarArgs, report: &mut Report) -> Result<Exit, CliError> {
     if args.llguidance && (args.request.is_some() || notation(args) != Notation::Lark) {
         return Err(CliError::Message("`--llguidance` needs `--format lark`".to_owned()));
     }
-    for warning in export::warnings(&grammar).iter().filter(|warning| concerns(args, warning.server)) {
+    for warning in dialect::warnings(&grammar).iter().filter(|warning| concerns(args, warning.server)) {
         note(&format!("warning: {}", warning.text));
     }
     let text = match args.request {

@@ -6,8 +6,8 @@ use std::time::Duration;
 
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum, value_parser};
+use motet_client::dialect::{Dialect, GrammarCarrier};
 use motet_client::{ClientSettings, ServerUrl};
-use motet_decode::export::{Dialect, GrammarCarrier};
 
 use super::key::KeyArgs;
 use crate::error::CliError;

@@ -78,7 +78,7 @@ pub(super) struct Robot {
 /// Entry of a state beside a scene: the truth value of a fact, `null` for unknown; or of `grip(THING)` the
 /// pose of the held thing in the frame of the hand's tip.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "expected `true`, `false`, `null` or the pose of a grip")]
 pub enum StateEntry {
     Truth(Option<bool>),
     Grip {

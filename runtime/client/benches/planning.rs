@@ -19,9 +19,9 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use kitchen::{Heard, brisk, geometry, right, setting};
+use motet_client::dialect::{Dialect, GrammarCarrier, request_constraint};
 use motet_client::{Client, ClientSettings};
 use motet_compiler::{InitialState, Session};
-use motet_decode::export::{Dialect, GrammarCarrier, request_constraint};
 use motet_decode::{AcceptorFactory as Acceptors, Grammar, Subset};
 use motet_planner::dialogue::{Conversation, DialogueObserver, DialogueSetup, NoOperator};
 use motet_planner::model::{self, ModelPlanner, ReplyVerdict, Start, StreamReader, judge};

@@ -1,11 +1,11 @@
 //! The body of a chat request: messages with their images, and the grammar.
 
 use motet_decode::Grammar;
-use motet_decode::export::{ChatBody, Delivery, Turn, TurnImage, TurnRole, request_constraint};
 use motet_planner::model::{Message, ModelError, Role};
 use motet_runtime::CameraImage as Picture;
 use serde_json::{Map, Value};
 
+use crate::dialect::{ChatBody, Delivery, Turn, TurnImage, TurnRole, request_constraint};
 use crate::image::EncodedImage;
 use crate::settings::ClientSettings;
 

@@ -2,8 +2,9 @@
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use motet_decode::export::TurnImage;
 use thiserror::Error;
+
+use crate::dialect::TurnImage;
 
 /// The largest image that is sent, in bytes: servers take no larger ones.
 pub const MAX_IMAGE_BYTES: usize = 16 << 20;

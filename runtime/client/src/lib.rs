@@ -1,8 +1,8 @@
 #![doc = include_str!("../README.md")]
 
 mod body;
+pub mod dialect;
 mod image;
-mod protocol;
 mod reply_reader;
 mod settings;
 mod stream;
@@ -46,7 +46,7 @@ impl Client {
         let wrong = |why: String| ModelError::Unreachable { why };
         // The first to set it wins, and all set the same.
         let _ = rustls::crypto::ring::default_provider().install_default();
-        let protocol = protocol::protocol(settings.dialect);
+        let protocol = dialect::protocol(settings.dialect);
         let fixed = protocol.headers.iter();
         let fixed =
             fixed.map(|(name, value)| (HeaderName::from_static(name), HeaderValue::from_static(value)));

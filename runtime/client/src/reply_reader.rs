@@ -3,11 +3,10 @@
 
 use std::sync::mpsc::Sender;
 
-use motet_decode::export::Dialect;
 use motet_planner::model::{Finish, ModelError, ReplyEvent, TokenUsage};
 use serde_json::Value;
 
-use crate::protocol::{self, Meaning, WireProtocol, kind};
+use crate::dialect::{self, Dialect, Meaning, WireProtocol, kind};
 use crate::settings::{ApiKey, ClientSettings};
 
 /// Number of characters of a server's words that are shown.
@@ -29,7 +28,7 @@ pub(crate) struct ReplyReader<'a> {
 impl<'a> ReplyReader<'a> {
     pub(crate) fn new(settings: &'a ClientSettings, news: &'a Sender<ReplyEvent>) -> Self {
         Self {
-            protocol: protocol::protocol(settings.dialect),
+            protocol: dialect::protocol(settings.dialect),
             key: settings.key.as_ref(),
             news,
             held: String::new(),
@@ -140,8 +139,7 @@ pub(crate) fn without_key(key: &ApiKey, answer: &mut Value) {
 /// The text of a whole answer in the protocol of a dialect; `None` if it has none.
 ///
 /// ```
-/// use motet_decode::export::Dialect;
-/// use serde_json::json;
+/// /// use serde_json::json;
 ///
 /// let openai = json!({"choices": [{"message": {"role": "assistant", "content": "yes"}}]});
 /// assert_eq!(motet_client::content(None, &openai).as_deref(), Some("yes"));
@@ -152,6 +150,6 @@ pub(crate) fn without_key(key: &ApiKey, answer: &mut Value) {
 /// ```
 #[must_use]
 pub fn content(dialect: Option<Dialect>, answer: &Value) -> Option<String> {
-    let texts = protocol::protocol(dialect).texts.iter().flat_map(|place| place.texts(answer));
+    let texts = dialect::protocol(dialect).texts.iter().flat_map(|place| place.texts(answer));
     texts.reduce(|all, next| all + &next)
 }

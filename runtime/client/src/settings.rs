@@ -5,11 +5,10 @@ use std::net::IpAddr;
 use std::time::Duration;
 
 use hyper_util::client::proxy::matcher::{Intercept, Matcher};
-use motet_decode::export::{Delivery, Dialect, GrammarCarrier, Protocol};
 use reqwest::Url;
 
+use crate::dialect::{self, Delivery, Dialect, GrammarCarrier, Protocol};
 use crate::image::EncodedImage;
-use crate::protocol::protocol;
 
 /// Server, model, and limits of time and size.
 #[derive(Clone, Debug)]
@@ -119,7 +118,7 @@ impl ServerUrl {
             );
         }
         let base = url.path().trim_end_matches('/').to_owned();
-        let path = protocol(dialect).path;
+        let path = dialect::protocol(dialect).path;
         let is_whole =
             |path: &str| base.ends_with(path.trim_start_matches("/v1beta").trim_start_matches("/v1"));
         if !is_whole(path) && !(is_chat(dialect) && (is_whole("/chat/completions") || is_whole("/api/chat")))

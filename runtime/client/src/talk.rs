@@ -3,12 +3,12 @@
 use std::sync::mpsc::Sender;
 use std::time::Duration;
 
-use motet_decode::export::Delivery;
 use motet_planner::model::{ModelError, ReplyEvent};
 use reqwest::header::{CONTENT_TYPE, HeaderMap, RETRY_AFTER};
 use reqwest::{Response, StatusCode};
 use serde_json::Value;
 
+use crate::dialect::Delivery;
 use crate::reply_reader::{shown, without_key};
 use crate::settings::ClientSettings;
 use crate::stream::{self, reason, timed_out};

@@ -10,8 +10,8 @@ use std::time::Duration;
 
 use crate::kitchen::{brisk, session};
 use crate::server::{Act, Heard, Server};
+use motet_client::dialect::{Dialect, GrammarCarrier};
 use motet_client::{ApiKey, Client, ClientSettings, EncodedImage, ServerUrl, content};
-use motet_decode::export::{Dialect, GrammarCarrier};
 use motet_decode::{Grammar, Subset};
 use motet_planner::model::{Finish, Message, Model as _, ModelError, ReplyEvent, Role, TokenUsage};
 use motet_syntax::Syntax;

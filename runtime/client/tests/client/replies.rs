@@ -4,8 +4,8 @@ use std::time::Duration;
 
 use crate::kitchen::{brisk, session};
 use crate::server::{Act, Server};
+use motet_client::dialect::{Dialect, GrammarCarrier};
 use motet_client::{Client, ClientSettings, EncodedImage, ImageError, ServerUrl};
-use motet_decode::export::{Dialect, GrammarCarrier};
 use motet_decode::{Grammar, Subset};
 use motet_planner::model::{Finish, Message, Model as _, ModelError, ReplyEvent, Role};
 

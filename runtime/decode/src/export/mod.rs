@@ -7,22 +7,14 @@
 //! A grammar cannot know what is in scope: a binding is any name. A policy that it generates parses, and is
 //! right in names and types but for that.
 
-mod chat_body;
 mod derive;
-mod dialect;
 mod ebnf;
-mod limits;
 mod notation;
-mod request_constraint;
 mod schema;
 mod terminal;
 
-pub use chat_body::{ChatBody, Delivery, Turn, TurnImage, TurnRole};
-pub use dialect::{Dialect, Protocol};
 pub use ebnf::{EbnfExpr, EbnfGrammar, EbnfRule, RuleId};
-pub use limits::{LimitWarning, warnings};
 pub use notation::Header;
-pub use request_constraint::{GrammarCarrier, Prompt, probe_body, request_body, request_constraint};
 
 use motet_syntax::Syntax;
 use serde_json::Value;

@@ -30,7 +30,7 @@ use crate::subset::{MAX_RETRIES, Modifiers, NumberRange, Subset};
 
 /// Above this number of entities and cases an exported name of the text syntax may be one of theirs: a
 /// grammar that excludes them all would be larger than the rest of it.
-pub(crate) const MAX_EXCLUDED: usize = 1_000;
+const MAX_EXCLUDED: usize = 1_000;
 
 /// The grammar of the canonical subset for the signatures of one session.
 ///
@@ -155,6 +155,14 @@ impl Grammar {
             words.extend(named);
         }
         words
+    }
+
+    /// Number of entities, where they are so many that an exported grammar of the text syntax does not keep a
+    /// name of the policy from being one of theirs.
+    #[must_use]
+    pub fn unexcluded_entities(&self) -> Option<usize> {
+        let count = self.signatures.entities.len();
+        (self.subset.syntax == Syntax::Text && count > MAX_EXCLUDED).then_some(count)
     }
 
     /// A goal can ask for something.

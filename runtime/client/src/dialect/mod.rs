@@ -1,4 +1,15 @@
-//! Dialects of model servers, and the protocols that they share.
+//! Dialects of model servers: the chat of a request, the fields that carry a grammar, the limits of servers,
+//! and the places of an answer. Several dialects share a protocol.
+
+mod chat_body;
+mod limits;
+mod request_constraint;
+mod wire;
+
+pub use chat_body::{ChatBody, Delivery, Turn, TurnImage, TurnRole};
+pub use limits::{LimitWarning, warnings};
+pub use request_constraint::{GrammarCarrier, Prompt, probe_body, request_body, request_constraint};
+pub(crate) use wire::{Meaning, WireProtocol, kind, protocol};
 
 /// A server's way of taking a chat and a grammar.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]

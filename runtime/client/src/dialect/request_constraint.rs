@@ -1,12 +1,11 @@
 //! Servers that constrain a model to a grammar: the fields of their requests that carry it.
 
+use motet_decode::Grammar;
+use motet_decode::export::{Format, Header, export, json_schema};
 use serde_json::{Map, Value, json};
 
+use super::Dialect;
 use super::chat_body::{ChatBody, Delivery, Turn, TurnRole};
-use super::dialect::Dialect;
-use super::notation::{self, Header};
-use super::{ebnf, json_schema};
-use crate::Grammar;
 
 /// Part of a request that carries the grammar.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -81,11 +80,11 @@ fn schema_constraint(dialect: Dialect, name: &str, schema: &Value) -> Value {
 
 /// Fields for the text syntax.
 fn text_constraint(dialect: Dialect, grammar: &Grammar) -> Option<Value> {
-    let gbnf = || notation::gbnf(&ebnf(grammar));
+    let gbnf = || export(grammar, Format::Gbnf, Header::None);
     match dialect {
-        Dialect::Vllm => Some(json!({"structured_outputs": {"grammar": gbnf()}})),
-        Dialect::LlamaCpp => Some(json!({"grammar": gbnf()})),
-        Dialect::Sglang => Some(json!({"ebnf": gbnf()})),
+        Dialect::Vllm => Some(json!({"structured_outputs": {"grammar": gbnf()?}})),
+        Dialect::LlamaCpp => Some(json!({"grammar": gbnf()?})),
+        Dialect::Sglang => Some(json!({"ebnf": gbnf()?})),
         Dialect::OpenAiResponses | Dialect::MistralRs => lark_constraint(dialect, grammar),
         Dialect::OpenAi | Dialect::Ollama | Dialect::Anthropic | Dialect::Gemini => None,
     }
@@ -94,18 +93,18 @@ fn text_constraint(dialect: Dialect, grammar: &Grammar) -> Option<Value> {
 /// Fields for Lark. vLLM takes it with the backend `guidance`, SGLang with `llguidance`, llama.cpp if it was
 /// built with that.
 fn lark_constraint(dialect: Dialect, grammar: &Grammar) -> Option<Value> {
-    let lark = |header| notation::lark(&ebnf(grammar), header);
+    let lark = |header| export(grammar, Format::Lark, header);
     match dialect {
-        Dialect::Vllm => Some(json!({"structured_outputs": {"grammar": lark(Header::Llguidance)}})),
-        Dialect::LlamaCpp => Some(json!({"grammar": lark(Header::Llguidance)})),
-        Dialect::Sglang => Some(json!({"ebnf": lark(Header::Llguidance)})),
-        Dialect::MistralRs => Some(json!({"grammar": {"type": "lark", "value": lark(Header::Llguidance)}})),
+        Dialect::Vllm => Some(json!({"structured_outputs": {"grammar": lark(Header::Llguidance)?}})),
+        Dialect::LlamaCpp => Some(json!({"grammar": lark(Header::Llguidance)?})),
+        Dialect::Sglang => Some(json!({"ebnf": lark(Header::Llguidance)?})),
+        Dialect::MistralRs => Some(json!({"grammar": {"type": "lark", "value": lark(Header::Llguidance)?}})),
         Dialect::OpenAiResponses => Some(json!({
             "tools": [{
                 "type": "custom",
                 "name": NAME,
                 "description": DESCRIPTION,
-                "format": {"type": "grammar", "syntax": "lark", "definition": lark(Header::None)},
+                "format": {"type": "grammar", "syntax": "lark", "definition": lark(Header::None)?},
             }],
             "tool_choice": {"type": "custom", "name": NAME},
             "parallel_tool_calls": false,
@@ -163,7 +162,7 @@ fn narrowed(schema: &Value, leaves_out: &[&str]) -> Value {
 /// The whole body of a chat request; `None` as of [`request_constraint`].
 ///
 /// ```
-/// use motet_decode::export::{Dialect, GrammarCarrier, Prompt, request_body};
+/// use motet_client::dialect::{Dialect, GrammarCarrier, Prompt, request_body};
 /// use motet_decode::{Environment, Grammar, Subset};
 ///
 /// let texts = Environment { robot: Some("hsr"), scene: Some("kitchen"), ..Environment::default() };

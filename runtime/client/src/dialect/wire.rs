@@ -1,9 +1,10 @@
 //! Protocols of chats as data: the address of requests, the header of the key, and the places in an answer
 //! that hold its text, its end and its tokens. `reply_reader` reads answers by it.
 
-use motet_decode::export::{Dialect, Protocol};
 use motet_planner::model::Finish;
 use serde_json::Value;
+
+use super::{Dialect, Protocol};
 
 /// Requests and answers of a [`Protocol`] on the wire.
 #[derive(Debug)]

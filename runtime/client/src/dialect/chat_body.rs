@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::dialect::{Dialect, Protocol};
+use super::{Dialect, Protocol};
 
 /// Author of a message.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -1,11 +1,10 @@
 //! Known limits of servers, and the excess of a grammar over them.
 
+use motet_decode::Grammar;
+use motet_decode::export::{EbnfExpr, ebnf, json_schema};
 use serde_json::Value;
 
-use super::dialect::Dialect;
-use super::{EbnfExpr, ebnf, json_schema};
-use crate::Grammar;
-use crate::grammar::MAX_EXCLUDED;
+use super::Dialect;
 
 /// The most properties of all objects together that OpenAI takes.
 const OPENAI_PROPERTIES: usize = 5_000;
@@ -64,8 +63,7 @@ pub fn warnings(grammar: &Grammar) -> Vec<LimitWarning> {
         let text = format!("the grammar repeats something {most} times; llama.cpp takes {LLAMA_REPETITIONS}");
         warn(Some(Dialect::LlamaCpp), text);
     }
-    let names = grammar.signatures.entities.len();
-    if grammar.subset.syntax == motet_syntax::Syntax::Text && names > MAX_EXCLUDED {
+    if let Some(names) = grammar.unexcluded_entities() {
         warn(None, format!("there are {names} entities: a name that the policy gives may be one of theirs"));
     }
     found
