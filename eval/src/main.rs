@@ -28,9 +28,9 @@
 //!   shares that it bears out reach the aims.
 //!
 //! All suites take `-j N`, a number of threads, and `--shard K/N`, which takes each N-th item from the K-th
-//! on, but for `reach` and `physics`, whose figures are times. `dialogue`, `dynamic`, `tasks` and `world`
-//! take `--continue FILE`, which keeps the results: a later call with the same words goes on where an earlier
-//! one was stopped.
+//! on. `reach` and `physics` use one thread unless told, since their figures are times. `dialogue`,
+//! `dynamic`, `tasks` and `world` take `--continue FILE`, which keeps the results: a later call with the same
+//! words goes on where an earlier one was stopped.
 
 use std::io::Write as _;
 use std::path::Path;

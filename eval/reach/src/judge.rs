@@ -3,11 +3,14 @@
 
 use std::collections::BTreeMap;
 use std::hash::Hasher as _;
-use std::io::Write as _;
+use std::io::{self, Write as _};
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use indicatif::ProgressBar;
+use motet::batch::{self, Shard};
 use motet_geometry::planning::{MotionAnswer, MotionQuery, QueryContext, SceneState, SearchBudget};
 use motet_robots::scene::{self, Scene};
 use motet_syntax::{FileId, Source};
@@ -44,6 +47,30 @@ pub struct Settings {
     pub witnesses: Option<PathBuf>,
     /// A file for all targets with grasps and answers, likewise.
     pub targets: Option<PathBuf>,
+    /// Number of threads. A time is that of the processor of one thread.
+    pub jobs: usize,
+    /// Share of the rooms.
+    pub shard: Shard,
+}
+
+impl Default for Settings {
+    /// A room of each robot, on one thread, with a full search that is not kept.
+    fn default() -> Self {
+        Self {
+            robots: ["hsr", "anymal_z1", "panda"].map(String::from).to_vec(),
+            rooms: 1,
+            seed: 1,
+            scene: None,
+            budget: SearchBudget::default(),
+            is_quick: false,
+            is_unjudged: false,
+            cache: None,
+            witnesses: None,
+            targets: None,
+            jobs: 1,
+            shard: Shard::default(),
+        }
+    }
 }
 
 /// One target with its answer.
@@ -87,37 +114,39 @@ pub enum AnswerKind {
 pub fn run(settings: &Settings) -> Result<(Vec<String>, Vec<Table>), String> {
     let (mut lines, mut tables) = (Vec::new(), Vec::new());
     let mut out = Out { witnesses: file(&settings.witnesses)?, targets: file(&settings.targets)? };
+    let read = |text: &String| scene::read(&Source::new("scene.json", text.as_str()), FileId(0)).0;
+    let given =
+        settings.scene.as_ref().map(|text| read(text).ok_or("the scene cannot be read")).transpose()?;
+    let rooms = if given.is_some() { 1 } else { settings.rooms };
     for name in &settings.robots {
         let model = robot(name).ok_or_else(|| format!("there is no robot `{name}` with a hand"))?;
-        let mut cache = Cache::read(settings, &model, name);
-        let (mut cases, mut answered) = (Vec::new(), Answered::default());
-        let bar = ProgressBar::new(settings.rooms);
-        for seed in settings.seed..settings.seed + settings.rooms {
-            bar.set_position(seed - settings.seed);
-            let scene = match &settings.scene {
-                Some(text) => scene::read(&Source::new("scene.json", text.as_str()), FileId(0))
-                    .0
-                    .ok_or("the scene cannot be read")?,
-                None => room_of(&model, seed),
-            };
-            let mut room = Judged { model: &model, scene: &scene, name, seed, cache: &mut cache };
-            if settings.is_unjudged {
-                room.answers(settings.budget, &mut out, &mut answered)?;
-                continue;
-            }
-            cases.extend(room.cases(settings, &mut out)?);
+        let cache = Cache::read(settings, &model, name);
+        let seeds = (0..rooms).filter(|index| settings.shard.has(*index as usize));
+        let judge = |index| {
+            let seed = settings.seed + index;
+            let scene = given.clone().unwrap_or_else(|| room_of(&model, seed));
+            let room = Judged { model: &model, scene: &scene, name, seed, cache: &cache };
+            if settings.is_unjudged { room.answers(settings.budget) } else { room.cases(settings) }
+        };
+        let (mut all, bar) = (Answers::default(), ProgressBar::new(rooms));
+        let ended = batch::in_order(settings.jobs, 1, seeds, judge, |room| {
+            bar.inc(1);
             cache.write();
-            if settings.scene.is_some() {
-                break;
+            match out.write(&room) {
+                Ok(()) => ControlFlow::Continue(all.add(room)),
+                Err(error) => ControlFlow::Break(error.to_string()),
             }
-        }
+        });
         bar.finish_and_clear();
+        if let ControlFlow::Break(error) = ended {
+            return Err(error);
+        }
         if settings.is_unjudged {
-            lines.extend(answered.lines(name));
+            lines.extend(all.lines(name));
             continue;
         }
-        lines.extend(cases.iter().filter_map(Case::line));
-        tables.push(Table::new(name, &cases));
+        lines.extend(all.cases.iter().filter_map(Case::line));
+        tables.push(Table::new(name, &all.cases));
     }
     Ok((lines, tables))
 }
@@ -145,15 +174,42 @@ fn file(path: &Option<PathBuf>) -> Result<Option<std::fs::File>, String> {
     path.as_ref().map(create).transpose()
 }
 
-/// Case whose truth is not asked for.
+impl Out {
+    fn write(&mut self, room: &Answers) -> io::Result<()> {
+        for (file, lines) in [(&mut self.witnesses, &room.witnesses), (&mut self.targets, &room.targets)] {
+            for line in lines {
+                file.as_mut().map_or(Ok(()), |file| writeln!(file, "{line}"))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Answers of a room, or of all rooms of a robot.
 #[derive(Default)]
-struct Answered {
+struct Answers {
+    /// Those whose truth was asked for.
+    cases: Vec<Case>,
+    /// Of the others: how many of each kind, the faults of witnesses, and the times of negatives.
     kinds: BTreeMap<AnswerKind, usize>,
     faults: Vec<String>,
     negative: Vec<Duration>,
+    /// Lines of the files that another program reads.
+    witnesses: Vec<String>,
+    targets: Vec<String>,
 }
 
-impl Answered {
+impl Answers {
+    /// Adds the answers of a room whose lines are written.
+    fn add(&mut self, room: Self) {
+        self.cases.extend(room.cases);
+        for (kind, count) in room.kinds {
+            *self.kinds.entry(kind).or_default() += count;
+        }
+        self.faults.extend(room.faults);
+        self.negative.extend(room.negative);
+    }
+
     fn lines(mut self, name: &str) -> Vec<String> {
         let faulty = self.faults.len();
         let kinds: Vec<String> =
@@ -176,46 +232,39 @@ struct Judged<'a> {
     scene: &'a Scene,
     name: &'a str,
     seed: u64,
-    cache: &'a mut Cache,
+    cache: &'a Cache,
 }
 
 impl Judged<'_> {
     /// Answers and witnesses without the truth.
-    fn answers(
-        &mut self,
-        budget: SearchBudget,
-        out: &mut Out,
-        answered: &mut Answered,
-    ) -> Result<(), String> {
+    fn answers(&self, budget: SearchBudget) -> Answers {
         let world = SceneState::new(&self.model.machine, self.scene);
         let room = QueryContext::new(&self.model.machine, self.scene, &world).ready();
         let subject = export::Subject { model: self.model, scene: self.scene, world: &world };
+        let mut answers = Answers::default();
         for target in targets(self.scene) {
             let begin = clock();
             let answer = room.answer(&MotionQuery::Reach(target.clone(), None), budget);
             let took = clock().saturating_sub(begin);
             let name = format!("{} {} {target}", self.name, self.seed);
-            *answered.kinds.entry(AnswerKind::of(&answer)).or_default() += 1;
+            *answers.kinds.entry(AnswerKind::of(&answer)).or_default() += 1;
             let MotionAnswer::Feasible(witness) = &answer else {
-                answered.negative.push(took);
+                answers.negative.push(took);
                 continue;
             };
             let found = faults(self.model, self.scene, &world, witness);
-            answered
-                .faults
-                .extend(found.first().map(|fault| format!("{name}: the witness does not hold: {fault}")));
-            if let Some(out) = &mut out.witnesses {
-                writeln!(out, "{}", subject.witness(&name, witness)).map_err(|error| error.to_string())?;
-            }
+            let fault = found.first().map(|fault| format!("{name}: the witness does not hold: {fault}"));
+            answers.faults.extend(fault);
+            answers.witnesses.push(subject.witness(&name, witness).to_string());
         }
-        Ok(())
+        answers
     }
 
-    fn cases(&mut self, settings: &Settings, out: &mut Out) -> Result<Vec<Case>, String> {
+    fn cases(&self, settings: &Settings) -> Answers {
         let world = SceneState::new(&self.model.machine, self.scene);
         let make = || QueryContext::new(&self.model.machine, self.scene, &world).ready();
         let (room, set_up) = timed(make);
-        let mut cases = Vec::new();
+        let mut answers = Answers::default();
         for target in targets(self.scene) {
             let query = MotionQuery::Reach(target.clone(), None);
             let (answer, took) = timed(|| room.answer(&query, settings.budget));
@@ -240,17 +289,13 @@ impl Judged<'_> {
             let said = AnswerKind::of(&answer);
             let case = Case { name, truth, said, took, set_up, faults: found, reason };
             let subject = export::Subject { model: self.model, scene: self.scene, world: &world };
-            let write = |out: &mut Option<std::fs::File>, line: &dyn Fn() -> serde_json::Value| match out {
-                Some(out) => writeln!(out, "{}", line()).map_err(|error| error.to_string()),
-                None => Ok(()),
-            };
             if let MotionAnswer::Feasible(witness) = &answer {
-                write(&mut out.witnesses, &|| subject.witness(&case.name, witness))?;
+                answers.witnesses.push(subject.witness(&case.name, witness).to_string());
             }
-            write(&mut out.targets, &|| subject.target(&case, &target, self.seed))?;
-            cases.push(case);
+            answers.targets.push(subject.target(&case, &target, self.seed).to_string());
+            answers.cases.push(case);
         }
-        Ok(cases)
+        answers
     }
 }
 
@@ -337,7 +382,7 @@ const VERSION: u32 = 2;
 /// Truths that were found before, in a file.
 struct Cache {
     path: Option<PathBuf>,
-    known: BTreeMap<String, Truth>,
+    known: Mutex<BTreeMap<String, Truth>>,
     robot: u64,
 }
 
@@ -345,28 +390,38 @@ impl Cache {
     fn read(settings: &Settings, model: &Model, name: &str) -> Self {
         let quick = if settings.is_quick { "-quick" } else { "" };
         let path = settings.cache.as_ref().map(|folder| folder.join(format!("{name}{quick}.json")));
-        let known = path.as_deref().map(kept).unwrap_or_default();
+        let known = Mutex::new(path.as_deref().map(kept).unwrap_or_default());
         Self { path, known, robot: hash(&format!("{VERSION} {:?} {:?}", model.urdf, model.machine.card())) }
     }
 
-    fn truth(&mut self, name: &str, scene: &Scene, find: impl FnOnce() -> Truth) -> Truth {
+    fn known(&self) -> MutexGuard<'_, BTreeMap<String, Truth>> {
+        self.known.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn truth(&self, name: &str, scene: &Scene, find: impl FnOnce() -> Truth) -> Truth {
         // The scene and the robot are part of the key: other ones are other questions.
         let key = format!("{name} {:016x}", hash(&format!("{scene:?}")) ^ self.robot);
-        *self.known.entry(key).or_insert_with(find)
+        let known = self.known().get(&key).copied();
+        known.unwrap_or_else(|| {
+            let truth = find();
+            self.known().insert(key, truth);
+            truth
+        })
     }
 
     /// With what another run has written meanwhile, and at one stroke, so that a run that is ended leaves
     /// what was there. A file that cannot be written costs only time.
-    fn write(&mut self) {
+    fn write(&self) {
         let Some(path) = &self.path else { return };
         if let Some(folder) = path.parent() {
             let _ = std::fs::create_dir_all(folder);
         }
+        let mut known = self.known();
         for (key, truth) in kept(path) {
-            self.known.entry(key).or_insert(truth);
+            known.entry(key).or_insert(truth);
         }
         let new = path.with_extension(format!("{}.new", std::process::id()));
-        if let Ok(text) = serde_json::to_string_pretty(&self.known) {
+        if let Ok(text) = serde_json::to_string_pretty(&*known) {
             let _ = std::fs::write(&new, text).and_then(|()| std::fs::rename(&new, path));
         }
     }

@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use motet_geometry::planning::SearchBudget;
 use serde::Serialize;
 
 use crate::judge::{AnswerKind, Case, Settings, run};
@@ -143,6 +142,8 @@ Asks `reach` in rooms at random, or for every object of a scene file, and judges
   --unjudged        no search for the truth: answers are counted and witnesses checked
   --witnesses FILE  writes the witnesses there
   --targets FILE    writes the targets there
+  -j, --jobs N      threads (1)
+  --shard K/N       each N-th room from the K-th
   --json            only the tables, as JSON";
 
 /// Runs the evaluation: what to print, and whether every witness holds and nothing reachable is certified
@@ -152,18 +153,9 @@ Asks `reach` in rooms at random, or for every object of a scene file, and judges
 ///
 /// An argument that is not known, or a file that cannot be read or written.
 pub fn command(args: &[String]) -> Result<(String, bool), String> {
-    let mut settings = Settings {
-        robots: vec![],
-        rooms: 10,
-        seed: 1,
-        scene: None,
-        is_quick: false,
-        budget: SearchBudget::default(),
-        is_unjudged: false,
-        cache: Some(PathBuf::from("target/reach")),
-        witnesses: None,
-        targets: None,
-    };
+    let mut settings =
+        Settings { rooms: 10, cache: Some(PathBuf::from("target/reach")), ..Settings::default() };
+    let mut robots = Vec::new();
     if args.iter().any(|arg| arg == "--help" || arg == "-h") {
         return Ok((HELP.to_owned(), true));
     }
@@ -173,7 +165,7 @@ pub fn command(args: &[String]) -> Result<(String, bool), String> {
         let mut value = || args.next().ok_or_else(|| format!("`{arg}` needs a value"));
         let number = |text: &String| text.parse().map_err(|_| format!("`{text}` is no number"));
         match arg.as_str() {
-            "--robot" => settings.robots.push(value()?.clone()),
+            "--robot" => robots.push(value()?.clone()),
             "--rooms" => settings.rooms = number(value()?)?,
             "--seed" => settings.seed = number(value()?)?,
             "--quick" => settings.is_quick = true,
@@ -181,6 +173,8 @@ pub fn command(args: &[String]) -> Result<(String, bool), String> {
             "--unjudged" => settings.is_unjudged = true,
             "--witnesses" => settings.witnesses = Some(value()?.into()),
             "--targets" => settings.targets = Some(value()?.into()),
+            "-j" | "--jobs" => settings.jobs = number(value()?)?.clamp(1, 1024) as usize,
+            "--shard" => settings.shard = value()?.parse()?,
             "--json" => is_json = true,
             file if !file.starts_with('-') => {
                 settings.scene =
@@ -189,8 +183,8 @@ pub fn command(args: &[String]) -> Result<(String, bool), String> {
             other => return Err(format!("`{other}` is not known: see --help")),
         }
     }
-    if settings.robots.is_empty() {
-        settings.robots = ["hsr", "anymal_z1", "panda"].map(String::from).to_vec();
+    if !robots.is_empty() {
+        settings.robots = robots;
     }
     let (mut lines, tables) = run(&settings)?;
     let is_good = tables.iter().all(|table| table.uncertified_positives == 0 && table.contradicted == 0);

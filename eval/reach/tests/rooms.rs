@@ -10,7 +10,6 @@
 
 use std::path::PathBuf;
 
-use motet_geometry::planning::SearchBudget;
 use motet_reach::{Settings, Truth, furnished, robot, run, targets, truth};
 use motet_robots::scene;
 use motet_syntax::{FileId, Source};
@@ -19,18 +18,7 @@ use motet_syntax::{FileId, Source};
 #[ignore = "searches for a minute or more: run it with --ignored"]
 fn reach_witnesses_hold() {
     let robots = vec!["hsr".into()];
-    let settings = Settings {
-        robots,
-        rooms: 1,
-        seed: 3,
-        scene: None,
-        is_quick: true,
-        budget: SearchBudget::default(),
-        is_unjudged: false,
-        cache: None,
-        witnesses: None,
-        targets: None,
-    };
+    let settings = Settings { robots, rooms: 1, seed: 3, is_quick: true, ..Settings::default() };
     let (lines, tables) = run(&settings).unwrap();
     for table in tables {
         assert_eq!(table.uncertified_positives, 0, "{lines:?}");
@@ -66,15 +54,10 @@ fn truth_cache_is_kept() {
     let _ = std::fs::remove_dir_all(&folder);
     let settings = |xyz: [f64; 3]| Settings {
         robots: vec!["panda".into()],
-        rooms: 1,
-        seed: 1,
         scene: Some(can(xyz)),
         is_quick: true,
-        budget: SearchBudget::default(),
-        is_unjudged: false,
         cache: Some(folder.clone()),
-        witnesses: None,
-        targets: None,
+        ..Settings::default()
     };
     let no_state = |xyz| run(&settings(xyz)).unwrap().1[0].no_state;
     let far = [3.0, 0.0, 0.9];
@@ -88,6 +71,35 @@ fn truth_cache_is_kept() {
     // Another scene is another question.
     assert_eq!(no_state([3.1, 0.0, 0.9]), 1);
     assert_eq!(std::fs::read_to_string(&file).unwrap().matches("panda 1 can").count(), 2);
+}
+
+/// Neither the number of threads nor the shards change an answer.
+#[test]
+fn rooms_are_the_same_on_several_threads_and_in_shards() {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR"));
+    let witnesses = |name: &str, jobs, shard: &str| {
+        let file = folder.join(name);
+        let settings = Settings {
+            robots: vec!["panda".into()],
+            rooms: 3,
+            is_unjudged: true,
+            witnesses: Some(file.clone()),
+            jobs,
+            shard: shard.parse().unwrap(),
+            ..Settings::default()
+        };
+        run(&settings).unwrap();
+        std::fs::read_to_string(file).unwrap()
+    };
+    let whole = witnesses("one.jsonl", 1, "0/1");
+    assert!(whole.lines().count() > 2, "{whole}");
+    assert_eq!(whole, witnesses("three.jsonl", 3, "0/1"));
+    let mut parts = witnesses("even.jsonl", 2, "0/2") + &witnesses("odd.jsonl", 2, "1/2");
+    for line in whole.lines() {
+        assert!(parts.contains(line), "{line}");
+        parts = parts.replacen(&format!("{line}\n"), "", 1);
+    }
+    assert_eq!(parts, "");
 }
 
 #[test]
