@@ -46,8 +46,7 @@ class Cases:
         (self.folder / "long.motet").write_text("policy long for hsr { go(kitchen_table) go(user) go(counter) go(user) done }")
         key = str(self.folder / "anna.key")
         self.fleet("send", "r0", str(self.folder / "long.motet"), "--key", key, "--id", "long")
-        while "long:" not in self.fleet("status"):
-            time.sleep(0.2)
+        self.wait(lambda: "long:" in self.fleet("status"), "the order does not begin")
         time.sleep(0.5)
         times, refused = [], []
         for number in range(self.args.swaps):
@@ -101,8 +100,7 @@ class Cases:
         wrong = self.fleet("ask", "r1", "yes", "--question", "other/1:3", *key, ok=(1,))
         assert "does not run" in wrong, wrong
         self.fleet("ask", "r1", "yes", "--question", first, *key)
-        while "go(" not in self.fleet("status"):
-            time.sleep(0.1)
+        self.wait(lambda: "asks: go(" in self.fleet("status"), "the answer does not arrive")
         self.kill_run("asks")
         second = self.question("r1")
         assert second != first, second
@@ -114,8 +112,7 @@ class Cases:
     def stops(self):
         """A stop holds although the process of the run has just been killed, and a policy takes over no other order."""
         self.send_policy("r1", "stops", "go(user) go(counter) go(user) go(counter)")
-        while "stops: go(" not in self.fleet("status"):
-            time.sleep(0.1)
+        self.wait(lambda: "stops: go(" in self.fleet("status"), "the order does not begin")
         key = ["--key", str(self.folder / "anna.key")]
         other = self.fleet("swap", "r1", str(self.folder / "swap.motet"), "--order", "asks", *key, ok=(1,))
         assert "the order `asks` does not run" in other, other

@@ -250,11 +250,6 @@ impl Engine {
         self.older.iter().find(|(of, _)| *of == revision).map(|(_, plan)| &*plan.graph)
     }
 
-    /// Forgets the graphs before a number, for runs of many swaps.
-    pub fn forget_graphs_before(&mut self, revision: u32) {
-        self.older.retain(|(of, _)| *of >= revision);
-    }
-
     /// The number of the graph that runs: 0, and one more with each swap.
     #[must_use]
     pub fn revision(&self) -> u32 {

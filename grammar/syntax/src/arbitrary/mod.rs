@@ -25,12 +25,6 @@ pub fn file(bytes: &[u8]) -> File {
     TreeGenerator::new(bytes, Flavor::Text).file()
 }
 
-/// A policy as the text front end makes it.
-#[must_use]
-pub fn text_policy(bytes: &[u8]) -> Policy {
-    TreeGenerator::new(bytes, Flavor::Text).policy()
-}
-
 /// A policy as the JSON front end makes it: without parameters, every argument named, every binding in scope.
 /// The printed JSON reads back as the same tree, also by way of the text syntax.
 #[must_use]
