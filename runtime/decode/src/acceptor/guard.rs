@@ -367,12 +367,17 @@ impl Machine {
         };
         let mut found: Vec<u32> = Vec::new();
         let mut kind = None;
-        let words_of = match (words.bound, frame.result) {
+        let mut words_of = match (words.bound, frame.result) {
             (BoundNames::Given, Some(ty)) => {
                 self.names_of(state.scope, ty).into_iter().map(Event::Bound).collect()
             }
             _ => self.words_of(state.op, state.scope, arg),
         };
+        words_of.retain(|event| match event {
+            Event::Word(_, index) => !self.is_out(words, *index),
+            Event::Bound(id) | Event::First(id) => !self.is_out(words, BOUND | *id),
+            _ => true,
+        });
         if let (Some((callable, given, _)), Some(site)) = (&mut call, site) {
             self.probe_values(*callable, given, &words_of, site);
         }

@@ -42,6 +42,9 @@ pub(crate) struct Machine {
     pub(crate) bytes: Vec<u8>,
     pub(crate) budget: usize,
     pub(crate) oracle: Oracle,
+    /// The bytes that are being taken together, and where they begin: of a list of words only those are judged
+    /// that agree with them.
+    pub(super) taken: Option<(usize, Vec<u8>)>,
 }
 
 impl Machine {
@@ -58,6 +61,7 @@ impl Machine {
             bytes: Vec::new(),
             budget,
             oracle: Oracle::default(),
+            taken: None,
         })
     }
 
@@ -92,6 +96,20 @@ impl Machine {
             }
             None => false,
         }
+    }
+
+    /// Takes bytes until one may not follow; returns how many it took. Judges no word that they rule out.
+    pub(super) fn take(&mut self, bytes: &[u8]) -> usize {
+        let begin = self.bytes.len();
+        self.taken = Some((begin, bytes.to_vec()));
+        let count = bytes.iter().take_while(|byte| self.push(**byte)).count();
+        self.taken = None;
+        if count < bytes.len() {
+            // Other words that begin like this may follow.
+            self.pop(count);
+            return bytes.iter().take_while(|byte| self.push(**byte)).count();
+        }
+        count
     }
 
     /// Takes back the last `count` bytes.
@@ -263,7 +281,9 @@ impl Machine {
                     let is_then = byte == *sign
                         && match automaton.op(*then) {
                             Op::Word(words) => {
+                                let taken = self.taken.take();
                                 let (lo, hi) = self.list(&lookahead, words);
+                                self.taken = taken;
                                 (lookahead.lo, lookahead.hi) = (lo, hi);
                                 lo < hi
                             }

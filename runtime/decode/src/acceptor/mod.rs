@@ -77,7 +77,7 @@ impl AcceptorFactory {
     /// An acceptor for a policy of at most `budget` bytes; `None` if no policy is that short.
     #[must_use]
     pub fn acceptor(&self, budget: usize) -> Option<Acceptor> {
-        Machine::new(Arc::clone(&self.0), budget).map(|machine| Acceptor { machine })
+        Machine::new(Arc::clone(&self.0), budget).map(|machine| Acceptor { machine, together: Vec::new() })
     }
 }
 
@@ -101,17 +101,32 @@ impl AcceptorFactory {
 #[derive(Clone, Debug)]
 pub struct Acceptor {
     machine: Machine,
+    /// The beginnings and ends of bytes that were taken together.
+    together: Vec<(usize, usize)>,
 }
 
 impl Acceptor {
     /// Takes bytes until one may not follow; returns how many it took.
     pub fn accept(&mut self, bytes: &[u8]) -> usize {
-        bytes.iter().take_while(|byte| self.machine.push(**byte)).count()
+        let begin = self.machine.bytes.len();
+        let count = self.machine.take(bytes);
+        if count > 1 {
+            self.together.push((begin, begin + count));
+        }
+        count
     }
 
     /// Takes back the last `count` bytes.
     pub fn forget(&mut self, count: usize) {
-        self.machine.pop(count);
+        let left = self.machine.bytes.len().saturating_sub(count);
+        while self.together.last().is_some_and(|(begin, _)| *begin >= left) {
+            self.together.pop();
+        }
+        // Amid bytes that were taken together not all words were judged.
+        let amid = self.together.pop_if(|(_, end)| *end > left).map(|(begin, _)| begin);
+        let again = self.machine.bytes.get(amid.unwrap_or(left)..left).unwrap_or_default().to_vec();
+        self.machine.pop(self.machine.bytes.len() - amid.unwrap_or(left));
+        self.accept(&again);
     }
 
     /// The bytes that must come next whatever the model means; empty if there is a choice. A host can

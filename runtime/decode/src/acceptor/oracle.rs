@@ -166,7 +166,7 @@ impl Machine {
     /// Some arguments complete a call of the callable.
     pub(crate) fn can_be_called(&mut self, callable: u16, site: CallSite) -> bool {
         let Some(own) = self.site_of(callable, site) else { return false };
-        if own.shared {
+        if own.shared && self.taken.is_none() {
             let made = self.context.automaton.callables.get(usize::from(callable));
             self.probe_callables(site, made.is_some_and(|made| made.primitive.is_none()));
         }

@@ -59,11 +59,22 @@ impl Machine {
         if state.hi != UNSEEN {
             return (state.lo, state.hi);
         }
+        let is_partial = self.taken.is_some();
         let (lo, hi) = self.list(state, words);
-        if let Some(stored) = self.state_mut(origin) {
+        if let Some(stored) = self.state_mut(origin)
+            && !is_partial
+        {
             (stored.lo, stored.hi) = (lo, hi);
         }
         (lo, hi)
+    }
+
+    /// The bytes that are being taken rule a word out that begins here.
+    pub(super) fn is_out(&self, words: &WordList, entry: u32) -> bool {
+        let Some((begin, bytes)) = &self.taken else { return false };
+        let ahead = bytes.get(self.bytes.len().saturating_sub(*begin)..).unwrap_or_default();
+        let mut letters = (0..).map_while(|pos| self.letter(words, entry, pos)).zip(ahead);
+        letters.any(|(letter, byte)| letter != *byte)
     }
 
     fn end_of_word(&mut self, mut state: State, words: &WordList, entry: u32) -> State {

@@ -100,6 +100,36 @@ fn acceptor_opens_concurrent_calls_that_check() {
     assert!(open > 20 && closed > 20, "{open} open, {closed} closed");
 }
 
+/// Of bytes that are taken together only the words that agree with them are judged: what may follow is the same
+/// as where each is taken alone, also after some of them were taken back.
+#[test]
+fn acceptor_takes_bytes_together_as_alone() {
+    let session = session("hsr", "kitchen");
+    for syntax in [Syntax::Json, Syntax::Text] {
+        let subset = Subset { syntax, ..subset(Modifiers::Written) };
+        let mut dice = Dice::new(5);
+        for policy in written(&session, subset, 2, |policy| policy.len() < 1500) {
+            let factory = AcceptorFactory::new(&session, subset);
+            let (mut alone, mut together) =
+                (factory.acceptor(6000).unwrap(), factory.acceptor(6000).unwrap());
+            let mut at = 0;
+            while at < policy.len() {
+                let end = (at + 1 + dice.below(9)).min(policy.len());
+                let bytes = &policy.as_bytes()[at..end];
+                assert_eq!(together.accept(bytes), bytes.len(), "{}", &policy[..end]);
+                assert!(bytes.iter().all(|byte| alone.accept(&[*byte]) == 1));
+                let back = if dice.chance(40) { dice.below(end - at) } else { 0 };
+                together.forget(back);
+                alone.forget(back);
+                at = end - back;
+                assert_eq!(together.next_bytes(), alone.next_bytes(), "{}", &policy[..at]);
+                // A byte that may not follow changes nothing.
+                assert_eq!(together.accept(b"\n\n"), 0);
+            }
+        }
+    }
+}
+
 /// The needs of a policy are asked before its steps are proved, with a full hand and an empty one: a call is
 /// open exactly where it checks.
 #[test]
