@@ -374,8 +374,8 @@ impl Machine {
             _ => self.words_of(state.op, state.scope, arg),
         };
         words_of.retain(|event| match event {
-            Event::Word(_, index) => !self.is_out(words, *index),
-            Event::Bound(id) | Event::First(id) => !self.is_out(words, BOUND | *id),
+            Event::Word(_, index) => !self.is_out(words, *index, state.pos),
+            Event::Bound(id) | Event::First(id) => !self.is_out(words, BOUND | *id, state.pos),
             _ => true,
         });
         if let (Some((callable, given, _)), Some(site)) = (&mut call, site) {

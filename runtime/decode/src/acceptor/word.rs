@@ -69,11 +69,11 @@ impl Machine {
         (lo, hi)
     }
 
-    /// The bytes that are being taken rule a word out that begins here.
-    pub(super) fn is_out(&self, words: &WordList, entry: u32) -> bool {
+    /// The bytes that are being taken rule a word out of which `pos` letters are here.
+    pub(super) fn is_out(&self, words: &WordList, entry: u32, pos: u32) -> bool {
         let Some((begin, bytes)) = &self.taken else { return false };
         let ahead = bytes.get(self.bytes.len().saturating_sub(*begin)..).unwrap_or_default();
-        let mut letters = (0..).map_while(|pos| self.letter(words, entry, pos)).zip(ahead);
+        let mut letters = (pos as usize..).map_while(|pos| self.letter(words, entry, pos)).zip(ahead);
         letters.any(|(letter, byte)| letter != *byte)
     }
 
