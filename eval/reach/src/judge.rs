@@ -132,10 +132,9 @@ pub fn run(settings: &Settings) -> Result<(Vec<String>, Vec<Table>), String> {
         let ended = batch::in_order(settings.jobs, 1, seeds, judge, |room| {
             bar.inc(1);
             cache.write();
-            match out.write(&room) {
-                Ok(()) => ControlFlow::Continue(all.add(room)),
-                Err(error) => ControlFlow::Break(error.to_string()),
-            }
+            let written = out.write(&room).map_err(|error| error.to_string());
+            all.add(room);
+            written.map_or_else(ControlFlow::Break, ControlFlow::Continue)
         });
         bar.finish_and_clear();
         if let ControlFlow::Break(error) = ended {
