@@ -17,7 +17,7 @@ from judge import WORLDS, carried_out, judge, motet, report, texts
 from server import Model, serve
 from weights import train, write
 
-DIRECT = 6
+DIRECT = 3
 # Dialects and carriers of `motet do`: the first two in each world, the others in the first.
 DIALECTS = [
     ("none", "usual"),
