@@ -2,19 +2,23 @@
 //! same driver as `motet run`.
 
 use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::str::FromStr;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use motet::driver_camera::DriverCamera;
+use motet_geometry::planning::RobotModel;
 use motet_host::journal::{JournalWriter, RunRecorder as JournalObserver, read};
 use motet_host::remote::protocol::Hello;
 use motet_host::remote::{DriverAddress, DriverTimeouts, RemoteDriver};
 use motet_planner::dialogue::{Conversation, DialogueObserver, RunRecorder};
-use motet_robots::card::Robot;
+use motet_robots::builtin;
+use motet_robots::card::{CameraMount, Robot};
 use motet_robots::scene::{Scene, write};
 use motet_runtime::journal::JournalHead;
 use motet_runtime::{Answer, Driver, Engine, Event, Observer, Pattern, Query, RunEnd, StartState, Time, run};
@@ -131,8 +135,8 @@ impl Bench {
     ) -> Result<TrialRobot, String> {
         if self.driver == DriverKind::Kinematic {
             let world = (told != real).then(|| real.clone());
-            let options =
-                SimOptions { seed, faults, profile: self.profile.clone(), world, ..SimOptions::default() };
+            let (profile, eye) = (self.profile.clone(), mount(&robot.name));
+            let options = SimOptions { seed, faults, profile, world, eye, ..SimOptions::default() };
             return Ok(TrialRobot::Kinematic(shared(Sim::new(robot, told, options))));
         }
         let folder = Folder::new()?;
@@ -165,6 +169,16 @@ impl Bench {
     pub fn sighted<'a>(&self, talk: Conversation<'a>, robot: &TrialRobot) -> Conversation<'a> {
         if self.has_pictures { talk.with_eyes(robot.eyes()) } else { talk }
     }
+}
+
+/// Camera of a built-in robot. It is found once, since it takes some milliseconds.
+fn mount(robot: &str) -> Option<CameraMount> {
+    static MOUNTS: Mutex<BTreeMap<String, Option<CameraMount>>> = Mutex::new(BTreeMap::new());
+    let mut mounts = MOUNTS.lock().unwrap_or_else(PoisonError::into_inner);
+    *mounts.entry(robot.to_owned()).or_insert_with(|| {
+        let body = builtin::robot(robot)?;
+        RobotModel::new(&body.robot, &body.urdf).camera_mount()
+    })
 }
 
 fn shared<T>(of: T) -> Rc<RefCell<T>> {

@@ -9,6 +9,7 @@ use clap::Args;
 use motet_host::remote::{DriverAddress, DriverAddressError};
 use motet_planner::runtime_check::CheckMode;
 use motet_project::{DiagnosticSink, ProjectError, SimulationInputs, read_profile, read_scene};
+use motet_robots::card::CameraMount;
 use motet_syntax::Sources;
 
 use crate::error::CliError;
@@ -78,10 +79,10 @@ impl DriverArgs {
         self.seed.unwrap_or_default()
     }
 
-    /// Reads the inputs of a simulation. `eye` is the camera's position in the frame of the base, in m.
+    /// Reads the inputs of a simulation. `eye` is the camera of the robot as its joints bear it.
     pub(crate) fn inputs(
         &self,
-        eye: Option<[f64; 3]>,
+        eye: Option<CameraMount>,
         sink: &mut dyn DiagnosticSink,
     ) -> Result<SimulationInputs, ProjectError> {
         let (faults, answers) = (self.faults.as_deref(), self.answers.as_deref());

@@ -4,11 +4,10 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex};
 
 use motet_geometry::planning::{
-    BaseMapCache, Configuration as Placed, Infeasible, InfeasibleReason, KeptRegion, MotionAnswer,
-    MotionQuery, MotionWitness, PlanningScene, QueryContext, ReachLength, RobotModel, SceneState,
-    SearchBudget, UnknownReason,
+    BaseMapCache, Infeasible, InfeasibleReason, KeptRegion, MotionAnswer, MotionQuery, MotionWitness,
+    PlanningScene, QueryContext, ReachLength, RobotModel, SceneState, SearchBudget, UnknownReason,
 };
-use motet_robots::card::Robot;
+use motet_robots::card::{CameraMount, Robot};
 use motet_robots::scene::{Entity, Grip, Placement, Scene};
 use motet_robots::urdf::Urdf;
 use motet_stdlib::lang;
@@ -155,16 +154,10 @@ impl Geometry {
         Some(format_smolstr!("it is not known exactly where `{first}` is"))
     }
 
-    /// Position of the first camera of the card, in metres in the frame of the base, with the robot in the
-    /// posture `start` if it has one. `None` if the card does not name the camera's link.
+    /// Camera of the robot, as [`RobotModel::camera_mount`] tells it.
     #[must_use]
-    pub fn eye(&self) -> Option<[f64; 3]> {
-        let machine = &self.machine;
-        let frame = machine.card().cameras.values().next()?.frame.as_ref()?;
-        let link = machine.tree().link(frame).ok()?;
-        let joints = machine.posture("start", machine.rest()).unwrap_or_else(|| machine.rest().to_vec());
-        let poses = machine.map_from_links(&Placed { base: [0.0; 3], joints });
-        Some(poses.get(link)?.translation.vector.into())
+    pub fn eye(&self) -> Option<CameraMount> {
+        self.machine.camera_mount()
     }
 
     /// World at the start, or the reason why it is unknown.

@@ -4,7 +4,9 @@
 use indexmap::IndexMap;
 use motet_syntax::unit::Dimension;
 use motet_syntax::{FileId, Span};
+use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
+use std::f64::consts::FRAC_PI_2;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -160,6 +162,29 @@ pub struct CameraSpec {
     pub view_rad: f64,
     /// Its link in the URDF, which looks along z with y down.
     pub frame: Option<SmolStr>,
+}
+
+/// Camera as its joints bear it, in the frame of the base on the floor. Elevations are in rad above the
+/// horizon.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CameraMount {
+    /// Its position in m.
+    pub eye: [f64; 3],
+    /// Elevations of its axis in the postures `home` and `start`.
+    pub rests: [f64; 2],
+    /// Least and greatest elevation to which its joints turn its axis.
+    pub tilt: [f64; 2],
+    /// True if only the arm turns it.
+    pub is_on_arm: bool,
+}
+
+impl CameraMount {
+    /// A camera that looks ahead and turns up and down without an end.
+    #[must_use]
+    pub const fn free(eye: [f64; 3]) -> Self {
+        Self { eye, rests: [0.0; 2], tilt: [-FRAC_PI_2, FRAC_PI_2], is_on_arm: false }
+    }
 }
 
 /// Closed interval in SI units; `least <= greatest`.

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use indexmap::IndexMap;
 use motet_host::remote::DriverAddress;
+use motet_robots::card::CameraMount;
 use motet_robots::clearance::ClearanceOverride;
 use motet_robots::{card, scene};
 use motet_sim::{Faults, PersonScript, Profile, Sim, SimOptions};
@@ -67,12 +68,20 @@ pub struct SavedSimulator {
     #[serde(default)]
     world: Option<String>,
     #[serde(default)]
-    eye: Option<[f64; 3]>,
+    eye: Option<SavedCamera>,
     #[serde(default)]
     guard: Option<Box<SavedProject>>,
     /// True if a person answered the questions of the policy, not the simulated one.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     asks: bool,
+}
+
+/// Camera of a simulated robot. Older journals have its position alone.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(untagged)]
+enum SavedCamera {
+    Mount(CameraMount),
+    Position([f64; 3]),
 }
 
 impl SavedDriver {
@@ -98,7 +107,7 @@ impl SavedDriver {
             told: told.map(|((name, args), holds)| (name.clone(), args.clone(), *holds)).collect(),
             profile: options.profile.clone(),
             world: options.world.as_ref().map(scene::write),
-            eye: options.eye,
+            eye: options.eye.map(SavedCamera::Mount),
             guard: project.map(Box::new),
             asks: false,
         }))
@@ -208,7 +217,10 @@ impl SavedSimulator {
             kinds: self.kinds.clone(),
             entities: self.entities.clone(),
             initial_facts: told.map(|(name, args, holds)| ((name.clone(), args.clone()), *holds)).collect(),
-            eye: self.eye,
+            eye: self.eye.as_ref().map(|eye| match eye {
+                SavedCamera::Mount(mount) => *mount,
+                SavedCamera::Position(eye) => CameraMount::free(*eye),
+            }),
             profile: self.profile.clone(),
             world: self.world.as_deref().map(read_scene).transpose()?,
         };

@@ -6,6 +6,7 @@ use std::path::Path;
 
 use motet_compiler::signature::Signatures;
 use motet_graph::{FactArg, Graph, Term, Value};
+use motet_robots::card::CameraMount;
 use motet_robots::scene::Scene;
 use motet_sim::{Faults, PersonScript, Profile, SimOptions};
 use motet_syntax::ast::{File, Item};
@@ -27,7 +28,7 @@ pub struct SimulationInputs {
     seed: u64,
     profile: Profile,
     world: Option<Scene>,
-    eye: Option<[f64; 3]>,
+    eye: Option<CameraMount>,
 }
 
 /// Reads a profile: a built-in one by its name, or a TOML file.
@@ -106,9 +107,9 @@ impl SimulationInputs {
         Self { world, ..self }
     }
 
-    /// The same inputs with the camera's position in the frame of the base, in m.
+    /// The same inputs with the camera of the robot as its joints bear it.
     #[must_use]
-    pub fn with_eye(self, eye: Option<[f64; 3]>) -> Self {
+    pub fn with_eye(self, eye: Option<CameraMount>) -> Self {
         Self { eye, ..self }
     }
 

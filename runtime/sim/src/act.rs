@@ -124,9 +124,10 @@ impl Sim {
     /// Looks at a thing before the hand goes there. A thing that is seen is known better; one that is seen
     /// not to be there is lost; of one that is hidden nothing new is known.
     fn see_before_grasp(&mut self, id: &str) {
-        let [miss, _] = self.world.miss(id, self.profile.camera.miss);
+        let look = ViewDirection::Ahead;
+        let [miss, _] = self.world.miss(id, self.profile.camera.miss, look);
         if !self.chance().comes(miss, "see", id) {
-            self.refresh(id);
+            self.refresh(id, look);
         }
     }
 

@@ -93,6 +93,10 @@ impl UprightBody {
         self.z() - self.below
     }
 
+    pub(crate) fn middle(&self) -> [f64; 3] {
+        [self.x(), self.y(), (self.bottom() + self.top()) / 2.0]
+    }
+
     /// Puts its bottom's centre at a point.
     pub(crate) fn put(&mut self, x: f64, y: f64, bottom: f64) {
         self.xyz = [x, y, bottom + self.below];

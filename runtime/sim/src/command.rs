@@ -139,7 +139,7 @@ impl SimCommand {
             }
             Self::Say(_) | Self::Ask(_) | Self::Choose(_) => return,
         };
-        world.arm = arm;
+        (world.arm, world.gaze) = (arm, None);
     }
 }
 

@@ -6,6 +6,7 @@ use crate::command::SimCommand;
 use crate::failure::Failure;
 use crate::faults::WorldEvent;
 use crate::motion::BaseMotion;
+use crate::sight::ViewDirection;
 use crate::sim::Sim;
 use crate::task::{NextStage, Task, TaskStage};
 use motet_graph::{Graph, Manner, Waypoint};
@@ -241,7 +242,7 @@ impl Sim {
         let now = self.world.now;
         self.feel();
         if task.step > 0 {
-            self.look_about();
+            self.look_about(ViewDirection::Still);
         }
         let next = self.next_stage(&mut task);
         let follows = matches!(next, NextStage::Follow(_));
@@ -271,6 +272,7 @@ impl Sim {
             let motion = motion.slowed(task.slower * task.stretch);
             task.stage = TaskStage::Driving(motion.end());
             self.drop_on_the_way(&motion);
+            self.world.gaze = None;
             self.world.motion = Some(motion);
             self.follows = follows;
             self.expect_contact();

@@ -1,6 +1,7 @@
 //! Answers to queries, from a world. What the world does not know of it leaves unknown.
 
 use crate::body::UprightBody;
+use crate::sight::ViewDirection;
 use crate::world::{ArmPose, Rest, Role, SimWorld};
 use indexmap::IndexMap;
 use motet_graph::Value;
@@ -96,7 +97,7 @@ impl SimWorld {
         match fluent {
             fluents::HOLDING => Some(self.holder(id).is_some()),
             fluents::LIFTED => Some(self.is_lifted(id)),
-            fluents::VISIBLE => Some(self.is_visible(id)),
+            fluents::VISIBLE => Some(self.is_visible(id, ViewDirection::Ahead)),
             fluents::LOCATED => Some(thing.seen_at == Some(thing.body.xyz)),
             fluents::REACHABLE => Some(self.is_reachable(id)),
             fluents::NEAR => Some(self.distance(&thing.body) <= NEAR_M),

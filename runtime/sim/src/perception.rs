@@ -33,10 +33,8 @@ impl Perception for Sim {
         if !self.world.sees(of, ViewDirection::Around) {
             return None;
         }
-        let body = self.world.thing(of)?.body;
-        let middle = [body.x(), body.y(), (body.bottom() + body.top()) / 2.0];
-        let lens = CameraLens::towards(self.world.eye_in_map(), middle, self.world.base.heading);
-        self.shot(&lens, now)
+        let middle = self.world.thing(of)?.body.middle();
+        self.shot(&self.world.lens(ViewDirection::Around, middle), now)
     }
 }
 
@@ -48,10 +46,11 @@ impl Sim {
         // The same moment gives the same errors, whatever was looked at before.
         let (chance, rates) = (Chance::new(self.seed, at.nanos()), &self.profile.camera);
         let in_view = self.world.things.iter().filter(|(id, thing)| {
-            matches!(thing.role, Role::Object | Role::Surface | Role::Container) && self.world.is_visible(id)
+            matches!(thing.role, Role::Object | Role::Surface | Role::Container)
+                && self.world.is_visible(id, ViewDirection::Ahead)
         });
         let seen = in_view.filter_map(|(id, thing)| {
-            let [miss, share] = self.world.miss(id, rates.miss);
+            let [miss, share] = self.world.miss(id, rates.miss, ViewDirection::Ahead);
             if chance.comes(miss, "detect", id) {
                 return None;
             }
@@ -104,7 +103,9 @@ impl Sim {
         if camera.is_some_and(|name| self.camera.as_deref() != Some(name)) {
             return None;
         }
-        let lens = CameraLens::new(self.world.eye_in_map(), self.world.base.heading + self.gaze(), BELOW);
+        let (heading, [least, greatest]) = (self.world.base.heading + self.gaze(), self.world.eye.tilt);
+        let below = -(-BELOW).clamp(least, greatest);
+        let lens = CameraLens::new(self.world.eye_in_map(), heading, below);
         self.shot(&lens, now)
     }
 
@@ -118,7 +119,7 @@ impl Sim {
             .world
             .things
             .iter()
-            .filter(|(id, _)| self.world.is_visible(id))
+            .filter(|(id, _)| self.world.is_visible(id, ViewDirection::Ahead))
             .filter_map(|(_, thing)| {
                 let worth = match thing.role {
                     Role::Object => FURNITURE,

@@ -32,48 +32,45 @@ const NEWS_M: f64 = 0.02;
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum ViewDirection {
     /// It looks where it looks.
+    Still,
+    /// It turns its camera, as far as that turns while the base stands still.
     Ahead,
     /// It turns until it has seen everything about it.
     Around,
 }
 
 impl SimWorld {
-    /// True if a camera sees a thing now. What is said of one that has no place in the scene counts until the
-    /// base has moved or the thing has.
-    pub(crate) fn is_visible(&self, id: &str) -> bool {
+    /// True if a look sees a thing now. What is said of one that has no place in the scene counts until the
+    /// base has moved or the thing has, except for a look all around.
+    pub(crate) fn is_visible(&self, id: &str, look: ViewDirection) -> bool {
         let Some(thing) = self.thing(id) else { return false };
         if let Some(said) = thing.visible_at_start
+            && look != ViewDirection::Around
             && self.unmoved
             && !thing.moved
         {
             return said;
         }
-        self.sees(id, ViewDirection::Ahead)
+        self.sees(id, look)
     }
 
     /// True if a thing is in range and view, not shut in, and enough of it shows.
     pub(crate) fn sees(&self, id: &str, look: ViewDirection) -> bool {
         let Some(thing) = self.thing(id) else { return false };
-        self.has_in_view(thing, look)
+        self.is_in_range(thing)
             && self.shut_in(id).is_none()
-            && self.unhidden_share(id, thing) >= SEEN_SHARE
+            && self.seen_share(id, thing, look) >= SEEN_SHARE
     }
 
-    /// True if a place is in range and view, hidden or not.
-    fn has_in_view(&self, thing: &Thing, look: ViewDirection) -> bool {
-        let body = &thing.body;
-        let (distance, bearing) =
-            (body.gap(self.base.x, self.base.y), self.base.bearing_of(body.x(), body.y()).abs());
-        self.cameras.iter().any(|camera| {
-            let beside = distance < 1e-9 || bearing <= camera.view_rad / 2.0;
-            distance <= camera.range_m && (beside || look == ViewDirection::Around)
-        })
+    fn is_in_range(&self, thing: &Thing) -> bool {
+        let gap = thing.body.gap(self.base.x, self.base.y);
+        self.cameras.iter().any(|camera| gap <= camera.range_m)
     }
 
     /// Probability that a look misses a thing in view, for a rate of misses; and the share of it that shows.
-    pub(crate) fn miss(&self, id: &str, rate: f64) -> [f64; 2] {
+    pub(crate) fn miss(&self, id: &str, rate: f64, look: ViewDirection) -> [f64; 2] {
         let Some(thing) = self.thing(id) else { return [MOST_MISSED, 0.0] };
-        let (share, body) = (self.unhidden_share(id, thing), &thing.body);
+        let (share, body) = (self.seen_share(id, thing, look), &thing.body);
         let size = (2.0 * body.radius()).max(body.top() - body.bottom());
         let far = self.base.distance_to(body.x(), body.y()).max(0.1);
         let angle = (size / far).max(1e-6);
@@ -182,8 +179,14 @@ impl Sim {
         (thing.lost, thing.seen_at, thing.visible_at_start) = (false, None, None);
     }
 
+    /// How a question makes the robot look: it turns its camera, unless the arm bears it and is in use.
+    pub(crate) fn glance(&self) -> ViewDirection {
+        let is_busy = self.world.eye.is_on_arm && !self.tasks.is_empty();
+        if is_busy { ViewDirection::Still } else { ViewDirection::Ahead }
+    }
+
     /// Compares the belief about a thing with what is in view.
-    pub(crate) fn refresh(&mut self, id: &str) {
+    pub(crate) fn refresh(&mut self, id: &str, look: ViewDirection) {
         if self.world.holder(id).is_some() {
             return;
         }
@@ -192,13 +195,9 @@ impl Sim {
         let look = match truth.map(|thing| thing.role) {
             Some(Role::Person) => ViewDirection::Around,
             Some(Role::Place) => return,
-            Some(Role::Surface | Role::Container | Role::Object) | None => ViewDirection::Ahead,
+            Some(Role::Surface | Role::Container | Role::Object) | None => look,
         };
-        let is_seen = match look {
-            ViewDirection::Ahead => self.world.is_visible(id),
-            ViewDirection::Around => self.world.sees(id, look),
-        };
-        if is_seen {
+        if self.world.is_visible(id, look) {
             self.notice(id);
             return;
         }
@@ -207,8 +206,8 @@ impl Sim {
             distance(truth.body.xyz, believed.body.xyz) <= SAME_M && truth.rest == believed.rest
         });
         if !is_right
-            && self.world.has_in_view(believed, look)
-            && self.world.unhidden_share(id, believed) >= EMPTY_SHARE
+            && self.world.is_in_range(believed)
+            && self.world.seen_share(id, believed, look) >= EMPTY_SHARE
             && let Some(thing) = self.belief.things.get_mut(id)
         {
             (thing.lost, thing.seen_at, thing.rest) = (true, None, Rest::Free);
@@ -216,22 +215,18 @@ impl Sim {
     }
 
     /// Compares the belief about everything that moves with what is in view.
-    pub(crate) fn look_about(&mut self) {
+    pub(crate) fn look_about(&mut self, look: ViewDirection) {
         let loose = self.world.things.iter().filter(|(_, thing)| !thing.fixed || thing.door.is_some());
         let ids: Vec<SmolStr> = loose.map(|(id, _)| id.clone()).collect();
-        ids.iter().for_each(|id| self.refresh(id));
+        ids.iter().for_each(|id| self.refresh(id, look));
     }
 
     /// The objects in view that a look takes for what is described, in the order of the scene.
     pub(crate) fn found(&mut self, what: &str, look: ViewDirection) -> Vec<SmolStr> {
-        let in_view = |id: &SmolStr| match look {
-            ViewDirection::Ahead => self.world.is_visible(id),
-            ViewDirection::Around => self.world.sees(id, look),
-        };
         let (chance, rates) = (self.chance(), &self.profile.camera);
         let is_seen = |id: &SmolStr| {
-            let [miss, _] = self.world.miss(id, rates.miss);
-            in_view(id) && !chance.comes(miss, "miss", id)
+            let [miss, _] = self.world.miss(id, rates.miss, look);
+            self.world.is_visible(id, look) && !chance.comes(miss, "miss", id)
         };
         let fitting = self.described(what);
         let mut found: Vec<SmolStr> = fitting.iter().filter(|id| is_seen(id)).cloned().collect();
@@ -246,6 +241,9 @@ impl Sim {
             }
         }
         found.iter().for_each(|id| self.notice(id));
+        if let Some(thing) = found.first().and_then(|id| self.world.thing(id)) {
+            self.world.gaze = Some(self.world.aim(look, thing.body.middle()));
+        }
         found
     }
 
@@ -284,11 +282,12 @@ impl Sim {
             return Ok(());
         }
         let name = self.belief.name(id);
-        let Some(believed) = self.belief.thing(id) else {
+        let Some(believed) = self.belief.thing(id).map(|thing| thing.body) else {
             return Err(Failure::new(failures::NOT_FOUND, format!("there is no {name}")));
         };
-        if !self.world.has_in_view(believed, ViewDirection::Ahead) {
-            let bearing = self.world.base.bearing_of(believed.body.x(), believed.body.y());
+        let look = ViewDirection::Ahead;
+        if !self.world.frames(look, believed.middle()) {
+            let bearing = self.world.base.bearing_of(believed.x(), believed.y());
             self.world.base.heading += bearing;
             self.world.carry();
             self.feel();
@@ -297,12 +296,13 @@ impl Sim {
         if let Some(thing) = self.world.things.get_mut(id) {
             thing.visible_at_start = None;
         }
-        let [miss, _] = self.world.miss(id, self.profile.camera.miss);
-        if self.world.is_visible(id) && !self.chance().comes(miss, "miss", id) {
+        self.world.gaze = Some(self.world.aim(look, believed.middle()));
+        let [miss, _] = self.world.miss(id, self.profile.camera.miss, look);
+        if self.world.is_visible(id, look) && !self.chance().comes(miss, "miss", id) {
             self.notice(id);
             return Ok(());
         }
-        self.refresh(id);
+        self.refresh(id, look);
         let is_lost = self.belief.thing(id).is_some_and(|thing| thing.lost);
         let text = match self.belief.shut_in(id) {
             _ if is_lost => format!("{name} is not where it was believed to be"),

@@ -11,7 +11,7 @@ use crate::telemetry::Trail;
 use crate::world::SimWorld;
 use indexmap::IndexMap;
 use motet_graph::Value;
-use motet_robots::card::Robot;
+use motet_robots::card::{CameraMount, Robot};
 use motet_robots::scene::Scene;
 use motet_runtime::{Answer, Detection, DriverEvent, Pattern, Query, Time, Truth};
 use motet_stdlib::lang::fluents;
@@ -212,7 +212,7 @@ impl Sim {
             Query::Fact { fluent, .. } if is_felt(fluent) => return,
             Query::Fact { args, .. } => {
                 if args.contains(&Pattern::Any) {
-                    self.look_about();
+                    self.look_about(self.glance());
                 }
                 let is = |arg: &Pattern| match arg {
                     Pattern::Is(value) => named(value),
@@ -223,7 +223,8 @@ impl Sim {
             Query::Measure { args, .. } => args.iter().filter_map(named).collect(),
             Query::Field { .. } => return,
         };
-        ids.iter().for_each(|id| self.refresh(id));
+        let look = self.glance();
+        ids.iter().for_each(|id| self.refresh(id, look));
     }
 
     /// Time at which something happens next.
@@ -323,9 +324,9 @@ pub struct SimOptions {
     /// told to be on the table is put there. Those of fluents that it does not simulate answer observations
     /// of them.
     pub initial_facts: IndexMap<(SmolStr, Vec<SmolStr>), bool>,
-    /// Position where the camera is: in the frame of the base on the floor, in m. Above its middle where that
-    /// is not said.
-    pub eye: Option<[f64; 3]>,
+    /// Camera as the robot's joints bear it. Where that is not said, it is above the middle of the base and
+    /// turns up and down without an end.
+    pub eye: Option<CameraMount>,
 }
 
 impl SimOptions {

@@ -89,7 +89,7 @@ impl Sim {
     fn go(&mut self, to: &str, step: u32) -> NextStage {
         let root = self.belief.root(to).to_owned();
         if step > 0 {
-            self.refresh(&root);
+            self.refresh(&root, ViewDirection::Ahead);
         }
         let (name, base) = (self.belief.name(to), self.world.base);
         let is_gone = |thing: &crate::world::Thing| thing.lost && thing.role == Role::Person;

@@ -6,7 +6,7 @@
 use crate::body::{BasePose, UprightBody};
 use crate::motion::{BaseMotion, PersonWalk};
 use indexmap::IndexMap;
-use motet_robots::card::{BaseSpec, CameraSpec, HandSpec};
+use motet_robots::card::{BaseSpec, CameraMount, CameraSpec, HandSpec};
 use motet_robots::scene::{EntityShape, Travel};
 use motet_runtime::Time;
 use smol_str::SmolStr;
@@ -26,8 +26,10 @@ pub(crate) struct SimWorld {
     pub(crate) drive: BaseSpec,
     pub(crate) hands: IndexMap<SmolStr, HandState>,
     pub(crate) cameras: Vec<CameraSpec>,
-    /// Position of the first camera in the frame of the base, in m.
-    pub(crate) eye: [f64; 3],
+    pub(crate) eye: CameraMount,
+    /// Turn of the camera to the left of the base and its elevation in rad, since a look; none where it is as
+    /// the posture has it.
+    pub(crate) gaze: Option<[f64; 2]>,
     pub(crate) things: IndexMap<SmolStr, Thing>,
     pub(crate) arm: ArmPose,
     pub(crate) standing: bool,

@@ -8,7 +8,7 @@ use crate::profile::RoomRates;
 use crate::sim::SimOptions;
 use crate::world::{ArmPose, Door, HandState, Rest, Role, SimWorld, Thing};
 use indexmap::IndexMap;
-use motet_robots::card::Robot;
+use motet_robots::card::{CameraMount, Robot};
 use motet_robots::scene::{Entity, EntityShape, Placement, Scene};
 use motet_runtime::Time;
 use motet_stdlib::lang::{entities, fluents, kinds};
@@ -35,7 +35,8 @@ impl SimWorld {
             drive: robot.base.clone(),
             hands: robot.hands.iter().map(|(name, hand)| (name.clone(), grip(hand.clone()))).collect(),
             cameras: robot.cameras.values().cloned().collect(),
-            eye: options.eye.unwrap_or(EYE),
+            eye: options.eye.unwrap_or(CameraMount::free(EYE)),
+            gaze: None,
             things: IndexMap::new(),
             arm: ArmPose::Home,
             standing: !robot.initially.iter().any(|fact| fact.trim() == "not standing(robot)"),

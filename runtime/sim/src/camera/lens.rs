@@ -32,12 +32,11 @@ impl CameraLens {
         Self { eye, axes, quaternion: mul(turned, [-0.5, 0.5, -0.5, 0.5]) }
     }
 
-    /// A camera that looks at a point; straight ahead where it is in it.
-    pub(crate) fn towards(eye: [f64; 3], point: [f64; 3], heading: f64) -> Self {
-        let [dx, dy, dz] = [point[0] - eye[0], point[1] - eye[1], point[2] - eye[2]];
-        let along = dx.hypot(dy);
-        let heading = if along > 1e-6 { dy.atan2(dx) } else { heading };
-        Self::new(eye, heading, if along > 1e-6 || dz.abs() > 1e-6 { (-dz).atan2(along) } else { 0.0 })
+    /// True if a direction in the frame `map` is in the picture.
+    pub(super) fn frames(&self, ray: [f64; 3]) -> bool {
+        let [right, down, ahead] = self.axes.map(|axis| dot(axis, ray));
+        let [half_x, half_y] = SIZE.map(|size| size as f64 / 2.0 / FOCAL * ahead);
+        ahead > 0.0 && right.abs() <= half_x && down.abs() <= half_y
     }
 
     /// The ray of a pixel in the frame `map`, as long as its depth is 1.
@@ -104,6 +103,7 @@ mod tests {
 
     use super::*;
     use motet_robots::quaternion::rotate;
+    use std::f64::consts::{FRAC_PI_4, SQRT_2};
 
     #[test]
     fn lens_quaternion_is_that_of_the_axes() {
@@ -118,7 +118,7 @@ mod tests {
 
     #[test]
     fn lens_looks_at_the_point() {
-        let lens = CameraLens::towards([1.0, 2.0, 1.2], [0.0, 3.0, 0.7], 0.0);
+        let lens = CameraLens::new([1.0, 2.0, 1.2], 3.0 * FRAC_PI_4, 0.5_f64.atan2(SQRT_2));
         let ray = lens.ray(0, 0);
         let ahead = lens.axes[2];
         let gaze = minus([0.0, 3.0, 0.7], lens.eye);

@@ -1,10 +1,12 @@
 //! Sight: the share of a thing that the camera sees past everything that stands before it, by rays to a grid
 //! of points over the thing.
 
-use super::lens::{dot, minus};
+use super::lens::{CameraLens, dot, minus};
 use super::scenery::parts;
 use super::solid::Solid;
-use crate::world::{Rest, Role, SimWorld, Thing};
+use crate::body::turned;
+use crate::sight::ViewDirection;
+use crate::world::{ArmPose, Rest, Role, SimWorld, Thing};
 use smol_str::SmolStr;
 
 /// Rays from the middle to each side of the grid over a thing.
@@ -13,14 +15,42 @@ const RAYS: i32 = 4;
 impl SimWorld {
     /// Position of the camera in the frame `map`, in m.
     pub(crate) fn eye_in_map(&self) -> [f64; 3] {
-        let (base, [x, y, z]) = (self.base, self.eye);
+        let (base, [x, y, z]) = (self.base, self.eye.eye);
         let (sin, cos) = base.heading.sin_cos();
         [base.x + cos * x - sin * y, base.y + sin * x + cos * y, z]
     }
 
-    /// Share from 0 to 1 of a thing that nothing hides from the camera: of one of this world, or of one that
-    /// is believed to be in it. O(things).
-    pub(crate) fn unhidden_share(&self, id: &str, thing: &Thing) -> f64 {
+    /// Turn to the left of the base and elevation in rad that the camera has where a look turns it to a
+    /// point, as far as it tilts.
+    pub(crate) fn aim(&self, look: ViewDirection, point: [f64; 3]) -> [f64; 2] {
+        let ([dx, dy, dz], [least, greatest]) = (minus(point, self.eye_in_map()), self.eye.tilt);
+        let [home, start] = self.eye.rests;
+        if look == ViewDirection::Still {
+            return self.gaze.unwrap_or([0.0, if self.arm == ArmPose::Ready { start } else { home }]);
+        }
+        let far = dx.hypot(dy);
+        let aside = if far > 1e-9 { turned(dy.atan2(dx) - self.base.heading) } else { 0.0 };
+        [aside, dz.atan2(far).clamp(least, greatest)]
+    }
+
+    /// Lens of the camera, turned to a point in the frame `map` as far as a look turns it.
+    pub(crate) fn lens(&self, look: ViewDirection, point: [f64; 3]) -> CameraLens {
+        let [pan, up] = self.aim(look, point);
+        CameraLens::new(self.eye_in_map(), self.base.heading + pan, -up)
+    }
+
+    /// True if a point in the frame `map` is in the picture of a look, hidden or not. The view of the card is
+    /// about the base: what turns a camera at the wrist moves it, too.
+    pub(crate) fn frames(&self, look: ViewDirection, point: [f64; 3]) -> bool {
+        let aside = self.base.bearing_of(point[0], point[1]).abs();
+        let view = self.cameras.iter().map(|camera| camera.view_rad).fold(0.0, f64::max);
+        (look == ViewDirection::Around || aside <= view / 2.0)
+            && self.lens(look, point).frames(minus(point, self.eye_in_map()))
+    }
+
+    /// Share from 0 to 1 of a thing that is in view and that nothing hides from the camera: of one of this world,
+    /// or of one that is believed to be in it. O(things).
+    pub(crate) fn seen_share(&self, id: &str, thing: &Thing, look: ViewDirection) -> f64 {
         let holder = match &thing.rest {
             Rest::With(person) => Some(person),
             Rest::Free | Rest::On(_) | Rest::In(_) => None,
@@ -34,13 +64,15 @@ impl SimWorld {
         };
         let others = self.things.iter().filter(|(other, before)| hides(other, before));
         let others: Vec<Solid> = others.flat_map(|(_, before)| parts(before)).collect();
-        share(self.eye_in_map(), &parts(thing), &others)
+        let eye = self.eye_in_map();
+        let frames = |[x, y, z]: [f64; 3]| self.frames(look, [eye[0] + x, eye[1] + y, eye[2] + z]);
+        share(eye, &parts(thing), &others, &frames)
     }
 }
 
-/// Share of the rays to a thing that meet nothing before it; 1 where no ray meets it, because the eye is in
-/// it.
-fn share(eye: [f64; 3], own: &[Solid], others: &[Solid]) -> f64 {
+/// Share of the rays to a thing that are in a picture and meet nothing before it; 1 where no ray meets it,
+/// because the eye is in it.
+fn share(eye: [f64; 3], own: &[Solid], others: &[Solid], frames: &dyn Fn([f64; 3]) -> bool) -> f64 {
     let Some(whole) = own.first() else { return 0.0 };
     let count = own.len() as f64;
     let centre =
@@ -77,7 +109,7 @@ fn share(eye: [f64; 3], own: &[Solid], others: &[Solid]) -> f64 {
             let own = first(&mut own.iter());
             if own.is_finite() {
                 met += 1;
-                seen += u32::from(first(&mut near.iter().copied()) >= own - 1e-6);
+                seen += u32::from(frames(ray) && first(&mut near.iter().copied()) >= own - 1e-6);
             }
         }
     }

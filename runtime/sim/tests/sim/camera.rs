@@ -2,6 +2,7 @@
 //! of the same world.
 
 use crate::sim;
+use motet_robots::card::CameraMount;
 use motet_runtime::conformance::check_perception;
 use motet_runtime::{Driver, Perception, RgbdView, Time};
 use motet_sim::{Sim, SimOptions};
@@ -22,7 +23,11 @@ fn seen(sim: &mut Sim, of: &str) -> RgbdView {
 
 #[test]
 fn camera_thing_is_in_the_middle_of_its_picture_in_its_colour_and_as_far_as_it_is() {
-    let mut sim = sim("hsr", "kitchen", SimOptions { eye: Some([0.1, 0.0, 1.0]), ..SimOptions::default() });
+    let mut sim = sim(
+        "hsr",
+        "kitchen",
+        SimOptions { eye: Some(CameraMount::free([0.1, 0.0, 1.0])), ..SimOptions::default() },
+    );
     for (of, strongest) in [("mug_1", 0), ("apple", 1)] {
         let view = seen(&mut sim, of);
         let middle = 240 * 640 + 320;

@@ -3,6 +3,7 @@
 
 use crate::{Bench, entity, robot, scene, text};
 use motet_graph::{Pose, Value};
+use motet_robots::card::CameraMount;
 use motet_robots::{builtin, scene::Scene};
 use motet_runtime::{Answer, Driver, DriverEvent, Outcome, Pattern, Query, Time};
 use motet_sim::{Faults, Sim, SimOptions};
@@ -183,4 +184,51 @@ fn world_base_stops_before_what_walks_into_its_way() {
     let [x, y, _] = bench.sim.position("user").unwrap();
     assert!(bench.sim.base().distance_to(x, y) > 0.5);
     assert!(bench.now < Time::from_secs(12.0), "{}", bench.now);
+}
+
+/// A ball in front of the HSR, which was told of it elsewhere and looks ahead.
+fn before_camera(tilt: [f64; 2], told: [f64; 3], real: [f64; 3]) -> Bench {
+    let room = |[x, y, z]: [f64; 3]| {
+        scene(&format!(
+            r#"{{"motet_scene": 1, "robot": {{"base": [0, 0, 0]}}, "entities": [{{"id": "ball", "kind": "Object",
+            "names": ["red ball"], "pose": {{"xyz": [{x}, {y}, {z}]}}, "shape": {{"sphere": {{"radius": 0.05}}}}}}]}}"#
+        ))
+    };
+    let eye = Some(CameraMount { tilt, ..CameraMount::free([0.1, 0.0, 1.0]) });
+    let options = SimOptions { world: Some(room(real)), eye, ..SimOptions::default() };
+    Bench::of(Sim::new(&robot("hsr"), &room(told), options))
+}
+
+#[test]
+fn world_camera_sees_no_higher_and_lower_than_it_tilts() {
+    let ball = [("what", text("red ball"))];
+    for (at, tilt, is_seen) in [
+        ([0.6, 0.0, 0.05], [-1.57, 0.52], true),
+        ([0.6, 0.0, 0.05], [-0.3, 0.52], false),
+        ([0.6, 0.0, 1.45], [-1.57, 0.52], true),
+        ([0.6, 0.0, 2.0], [-1.57, 0.52], false),
+        ([2.6, 0.0, 2.0], [-1.57, 0.52], true),
+    ] {
+        let mut bench = before_camera(tilt, at, at);
+        let found = bench.call("detect", &ball);
+        assert_eq!(matches!(found, Outcome::Success(_)), is_seen, "{at:?} with {tilt:?}: {found}");
+        bench.is("visible", &["ball"], is_seen);
+        assert_eq!(bench.sim.detections(bench.now).len(), usize::from(is_seen), "{at:?} with {tilt:?}");
+        let found = bench.call("inspect", &[("what", entity("ball"))]);
+        assert_eq!(matches!(found, Outcome::Success(_)), is_seen, "{at:?} with {tilt:?}: {found}");
+    }
+}
+
+#[test]
+fn world_robot_notices_by_the_way_what_is_in_the_picture_alone() {
+    // Told to be behind the robot. Another goal ends, with the camera level.
+    for (at, is_noticed) in [([1.5, 0.0, 0.7], true), ([0.6, 0.0, 0.05], false), ([0.4, 1.2, 1.0], false)] {
+        let mut bench = before_camera([-1.57, 0.52], [-2.0, 0.0, 0.5], at);
+        let believed = |bench: &Bench| bench.sim.believed_position("ball").unwrap();
+        bench.does("say", &[("text", text("hello"))]);
+        assert_eq!(believed(&bench) == at, is_noticed, "{at:?}");
+        // A look turns the camera to it.
+        bench.does("detect", &[("what", text("red ball"))]);
+        assert_eq!(believed(&bench), at);
+    }
 }

@@ -4,8 +4,9 @@
 //! that joints turn has to aim at it to within [`AIM`], and its bearing from the base may be at most half
 //! of the card's view, which includes the joints' motion. The view of a fixed camera is its own.
 
+use motet_robots::card::CameraMount;
 use motet_robots::scene::Entity;
-use nalgebra::Vector3;
+use nalgebra::{Isometry3, Vector3};
 
 use crate::collision::{Shape, Solid};
 use crate::kinematics::{Dof, quasi_random};
@@ -14,10 +15,13 @@ use crate::planning::query::{
     BearingLimit, ContactTally, Infeasible, InfeasibleReason, MotionAnswer, MotionWitness, ReachLength,
     SearchBudget, UnknownReason,
 };
-use crate::planning::scene::{AllowedCollisions, Configuration};
+use crate::planning::scene::{AllowedCollisions, Configuration, RobotModel};
 
 /// Greatest angle between a camera's axis and its target, in rad; for a fixed camera up and down only.
 const AIM: f64 = 0.37;
+/// Joints of a camera of which both ends are tried together, and positions between the ends.
+const ENDS: usize = 6;
+const TURNS: usize = 64;
 /// Distance of sampled points from an entity's centre, as a share of its half extents.
 const OUT: f64 = 0.8;
 
@@ -39,7 +43,7 @@ pub(crate) fn look(context: &QueryContext<'_>, id: &str, budget: SearchBudget) -
         return unknown(format!("the hand holds `{id}`"));
     }
     let start = &context.state.robot;
-    let (moving, dofs) = head(context, frame);
+    let (moving, dofs) = head(context.model, frame);
     let view =
         CameraView { frame, range: camera.range_m, half: camera.view_rad / 2.0, is_still: moving.is_empty() };
     let (mut hides, mut ways) = (ContactTally::default(), ContactTally::default());
@@ -88,16 +92,55 @@ pub(crate) fn look(context: &QueryContext<'_>, id: &str, budget: SearchBudget) -
     MotionAnswer::Infeasible(Infeasible::exhausted(reason))
 }
 
+impl RobotModel {
+    /// Place of the first camera of the card, in the posture `start` if there is one, and how far its joints
+    /// turn it up and down, whatever may be in their way. `None` if the card does not name the camera's link.
+    #[must_use]
+    pub fn camera_mount(&self) -> Option<CameraMount> {
+        let link = self.tree().link(self.card().cameras.values().next()?.frame.as_ref()?).ok()?;
+        let camera = |joints: Vec<f64>| {
+            self.map_from_links(&Configuration { base: [0.0; 3], joints }).get(link).copied()
+        };
+        let elevation =
+            |camera: &Isometry3<f64>| libm::asin((camera.rotation * Vector3::z()).z.clamp(-1.0, 1.0));
+        let start = self.posture("start", self.rest()).unwrap_or_else(|| self.rest().to_vec());
+        let (home, start) = (camera(self.rest().to_vec())?, camera(start)?);
+        let rests = [elevation(&home), elevation(&start)];
+        let (moving, dofs) = head(self, link);
+        // The ends of the joints, and positions between them.
+        let ends = (0..1_usize << moving.len().min(ENDS)).map(|ends| {
+            let end = |(at, dof): (usize, &Dof)| {
+                let (least, greatest) = dof.sampling_range();
+                if ends >> at.min(ENDS) & 1 == 0 { least } else { greatest }
+            };
+            dofs.iter().enumerate().map(end).collect()
+        });
+        let mut tilt = rests;
+        tilt.sort_by(f64::total_cmp);
+        for positions in ends.chain((1..=TURNS).map(|at| quasi_random(&dofs, at))) {
+            let mut joints = self.rest().to_vec();
+            for (slot, position) in moving.iter().zip(positions) {
+                joints.get_mut(*slot).into_iter().for_each(|joint| *joint = position);
+            }
+            let up = elevation(&camera(joints)?);
+            tilt = [tilt[0].min(up), tilt[1].max(up)];
+        }
+        let arm = self.hand().map(|hand| &hand.solver.chain().in_tree);
+        let is_on_arm = moving.iter().any(|at| arm.is_some_and(|arm| arm.contains(at)));
+        Some(CameraMount { eye: start.translation.vector.into(), rests, tilt, is_on_arm })
+    }
+}
+
 /// Joints that turn a camera and are not the arm's; all of them for a camera at the wrist.
-fn head(context: &QueryContext<'_>, frame: usize) -> (Vec<usize>, Vec<Dof>) {
-    let arm = context.model.hand().map(|hand| &hand.solver.chain().in_tree);
+fn head(model: &RobotModel, frame: usize) -> (Vec<usize>, Vec<Dof>) {
+    let arm = model.hand().map(|hand| &hand.solver.chain().in_tree);
     let mut all: Vec<usize> =
-        context.model.ancestor_joints(frame).iter().map(|ancestor| ancestor.coupling.dof).collect();
+        model.ancestor_joints(frame).iter().map(|ancestor| ancestor.coupling.dof).collect();
     all.sort_unstable();
     all.dedup();
     let own: Vec<usize> = all.iter().copied().filter(|at| !arm.is_some_and(|arm| arm.contains(at))).collect();
     let moving = if own.is_empty() { all } else { own };
-    let dofs = context.model.tree().dofs();
+    let dofs = model.tree().dofs();
     let known = moving.iter().filter_map(|at| dofs.get(*at).cloned()).collect();
     (moving, known)
 }

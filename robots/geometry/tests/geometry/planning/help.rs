@@ -86,6 +86,22 @@ fn look_sees_entities_in_the_view() {
 }
 
 #[test]
+fn camera_mount_is_that_of_the_joints_that_turn_it() {
+    let mount = |name: &str| model(name).0.camera_mount().unwrap();
+    let close = |one: f64, other: f64| assert!((one - other).abs() < 1e-3, "{one} is not {other}");
+    let head = mount("hsr");
+    close(head.tilt[0], -1.57);
+    close(head.tilt[1], 0.52);
+    close(head.rests[0], 0.0);
+    close(head.rests[1], -0.5);
+    assert!(!head.is_on_arm && (0.9..1.2).contains(&head.eye[2]), "{head:?}");
+    for name in ["anymal_z1", "panda"] {
+        let wrist = mount(name);
+        assert!(wrist.is_on_arm && wrist.tilt[0] < -1.4 && wrist.tilt[1] > 1.0, "{name}: {wrist:?}");
+    }
+}
+
+#[test]
 fn look_reports_a_distance_beyond_the_range() {
     let (model, _) = model("hsr");
     let (why, help) = refused(&model, &aside(6.0, 0.0), "look(mug_1)");
