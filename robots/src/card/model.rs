@@ -1,12 +1,13 @@
 //! Data model of a robot card: every number is finite and in range, every name in it exists. With the spans
 //! of the names and bounds that the compiler checks against the library.
 
+use std::f64::consts::FRAC_PI_2;
+
 use indexmap::IndexMap;
 use motet_syntax::unit::Dimension;
 use motet_syntax::{FileId, Span};
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
-use std::f64::consts::FRAC_PI_2;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
