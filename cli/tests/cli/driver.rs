@@ -270,13 +270,22 @@ fn driver_that_dies_or_says_nothing_more_ends_the_run_soon() {
     ran.check(3, &["out:confirmed neither a cancel nor a safe stop; the robot may still move"]);
     ran.check(3, &["out:it was at `go(kitchen_table)`"]);
     assert!(secs < 12.0, "{secs}");
-    // Nothing moves while it is waited for: it is called again, and is as silent.
-    let once = odd("").replace("live = False", "import os\nlive = os.path.exists('was_here')");
-    let once = once.replace("live = True", "open('was_here', 'w')\n        live = True");
-    let once = once.replace("if m['method'] == 'ping' and not live", "if not live and 'id' in m");
-    let (ran, secs) = ends("falls", "waits.motet", once);
-    ran.check(3, &["err:gave no sign of life", "err:it was told to do nothing", "out:failed with `timeout`"]);
-    assert!((4.0..20.0).contains(&secs), "{secs} s: {ran:#?}");
+    // Nothing moves while it is waited for: it is called again, and is as silent. It falls silent where it
+    // was asked for what is watched, or has answered that.
+    for (name, answers, secs_in) in [("falls", 1, 5.0..10.0), ("rests", 2, 3.0..7.5)] {
+        let begin = format!("import os\nlive = {answers} if os.path.exists('{name}ed') else 0");
+        let once = odd("").replace("live = False", &begin);
+        let once = once.replace("live = True", &format!("open('{name}ed', 'w')\n        live += 1"));
+        let once =
+            once.replace("m['method'] == 'ping' and not live", &format!("live < {answers} and 'id' in m"));
+        let once = once.replace("'result': {}", "'result': {'answer': {'truth': False}}");
+        let (ran, secs) = ends(name, "waits.motet", once);
+        ran.check(
+            3,
+            &["err:gave no sign of life", "err:it was told to do nothing", "out:failed with `timeout`"],
+        );
+        assert!(secs_in.contains(&secs), "{name}: {secs} s: {ran:#?}");
+    }
 }
 
 #[test]

@@ -62,6 +62,8 @@ pub struct RemoteDriver {
     heard_at: Instant,
     rate: LineRate,
     said_at: Instant,
+    /// It was asked for more than a sign of life since it said something.
+    is_asked: bool,
     restarts: u32,
     /// Time from which it is called again, for what may still move.
     call_at: Instant,
@@ -139,6 +141,7 @@ impl RemoteDriver {
             heard_at: Instant::now(),
             rate: LineRate::default(),
             said_at: Instant::now(),
+            is_asked: false,
             restarts: patience.restarts,
             call_at: Instant::now(),
             last: from,
@@ -287,6 +290,10 @@ impl RemoteDriver {
         match self.greet() {
             Ok(early) => early.iter().for_each(|line| self.hear_line(line)),
             Err(breakage) => {
+                // One that is mute again is not waited for where nothing moves.
+                if matches!(breakage, LinkError::Mute(_)) && self.goals.is_idle() {
+                    self.restarts = 0;
+                }
                 self.log.note(&breakage.to_string());
                 return false;
             }
@@ -338,6 +345,7 @@ impl RemoteDriver {
         self.log.line(LineFrom::Host, &line);
         let said = link.say(line);
         self.said_at = Instant::now();
+        self.is_asked |= !matches!(call, DriverCall::Ping(_));
         if let Err(breakage) = &said {
             self.broke(breakage);
         }

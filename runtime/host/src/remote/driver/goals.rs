@@ -31,6 +31,11 @@ impl GoalLedger {
         self.live.contains_key(&goal) || self.stopping.contains(&goal)
     }
 
+    /// True if nothing moves, as far as it was told.
+    pub(super) fn is_idle(&self) -> bool {
+        self.live.is_empty() && self.stopping.is_empty()
+    }
+
     /// Takes the end of a goal in. The primitive of a goal that ran.
     pub(super) fn ended(&mut self, goal: GoalId) -> Option<SmolStr> {
         self.live.remove(&goal)

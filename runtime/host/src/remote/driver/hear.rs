@@ -45,7 +45,7 @@ impl RemoteDriver {
 
     pub(super) fn hear_line(&mut self, line: &str) {
         self.log.line(LineFrom::Driver, line);
-        self.heard_at = Instant::now();
+        (self.heard_at, self.is_asked) = (Instant::now(), false);
         if self.rate.exceeds(self.heard_at) {
             return self.broke(&LinkError::Hasty);
         }
@@ -244,7 +244,11 @@ impl RemoteDriver {
         let silent = self.heard_at.elapsed();
         // A driver that hears nothing stops by itself, so it is spoken to also where it says much.
         let quiet = silent.max(self.said_at.elapsed());
-        if silent >= self.patience.silence {
+        // One that has nothing to do but to answer is not busy.
+        let is_free = self.goals.is_idle() && !self.is_asked;
+        let patience =
+            if is_free { self.patience.heartbeat + self.patience.answer } else { self.patience.silence };
+        if silent >= patience.min(self.patience.silence) {
             self.broke(&LinkError::Silent(silent));
         } else if quiet >= self.patience.heartbeat
             && !self.waiting.values().any(|waiting| matches!(waiting.call, DriverCall::Ping(_)))
