@@ -42,8 +42,8 @@ pub(crate) struct Machine {
     pub(crate) bytes: Vec<u8>,
     pub(crate) budget: usize,
     pub(crate) oracle: Oracle,
-    /// The bytes that are being taken together, and where they begin: of a list of words only those are judged
-    /// that agree with them.
+    /// The bytes that are being taken together, and where they begin: of a list of words only those are
+    /// judged that agree with them.
     pub(super) taken: Option<(usize, Vec<u8>)>,
 }
 

@@ -100,8 +100,8 @@ fn acceptor_opens_concurrent_calls_that_check() {
     assert!(open > 20 && closed > 20, "{open} open, {closed} closed");
 }
 
-/// Of bytes that are taken together only the words that agree with them are judged: what may follow is the same
-/// as where each is taken alone, also after some of them were taken back.
+/// Of bytes that are taken together only the words that agree with them are judged: what may follow is the
+/// same as where each is taken alone, also after some of them were taken back.
 #[test]
 fn acceptor_takes_bytes_together_as_alone() {
     let session = session("hsr", "kitchen");
