@@ -145,6 +145,15 @@ impl Environment {
         self.given.iter().map(|(fact, holds)| (fact, *holds)).chain(self.base_pose_facts.facts())
     }
 
+    /// Returns whether some of the facts that a fact at the start covers were forgotten after it.
+    pub(crate) fn leaves_open(&self, fact: &Fact) -> bool {
+        let mut is_open = false;
+        self.facts.parts(fact.fluent, key(fact), |part| {
+            is_open |= self.facts.get(fact.fluent, part).open.is_some();
+        });
+        is_open
+    }
+
     /// Drops earlier entries that a fact covers.
     fn forget_given(&mut self, fact: &Fact) {
         let known = fact.args.iter().enumerate().filter(|(_, arg)| arg.is_some());

@@ -8,9 +8,11 @@ mod inspection;
 mod table;
 
 use motet_graph as graph;
-use motet_graph::{NodeId, RegionId};
+use motet_graph::{NodeId, NodeKind, RegionId};
 use motet_stdlib::lang;
 use motet_syntax::ast::EndKind;
+use rustc_hash::FxHashSet;
+use smol_str::SmolStr;
 
 pub(crate) use self::deferred_notes::deferred_notes;
 pub(crate) use self::inspection::inspect;
@@ -42,10 +44,16 @@ pub(crate) fn lower(
         ids: vec![None; program.steps.len()],
     };
     lowering.region(&program.body, None);
-    // What the pose of the base decides is left to observation, so that a graph does not grow with the room.
-    let initial = environment.given.iter().filter_map(|(fact, value)| {
-        let fact = lowering.tables.fact(fact, &[], None)?;
-        (!has_any(&fact)).then_some(graph::InitialFact { fact, value: *value })
+    // What is said of many things, or follows from the pose of the base, is told only where a condition looks
+    // at it, so that a graph does not grow with the room. A driver that does not know it, or a policy that
+    // takes over when it holds no longer, would else contradict the proof.
+    let seen = SeenFacts::of(&lowering.nodes);
+    let given = environment.given.iter().map(|(fact, value)| (fact, *value, fact.args.contains(&None)));
+    let of_pose = environment.base_pose_facts.facts().map(|(fact, value)| (fact, value, true));
+    let initial = given.chain(of_pose).filter_map(|(known, value, is_wide)| {
+        let fact = lowering.tables.fact(known, &[], None)?;
+        let is_told = !is_wide || (seen.meet(&fact) && !environment.leaves_open(known));
+        is_told.then_some(graph::InitialFact { fact, value })
     });
     let given: Vec<_> = initial.collect();
     let goal = lowering.goal();
@@ -134,8 +142,63 @@ fn is_observable(condition: &Condition, library: &Library) -> bool {
     !condition.any(&is_hidden) && !condition.any_term(&is_hidden_term)
 }
 
-fn has_any(fact: &graph::Fact) -> bool {
-    fact.args.contains(&graph::FactArg::Any)
+/// The facts that conditions look at: for each argument of each fluent the values, or `None` for any. An
+/// argument behind the last stands for the fluent.
+#[derive(Default)]
+struct SeenFacts(FxHashSet<(graph::FluentId, usize, Option<SmolStr>)>);
+
+impl SeenFacts {
+    fn of(nodes: &[graph::Node]) -> Self {
+        let mut seen = Self::default();
+        for node in nodes {
+            match &node.kind {
+                NodeKind::If { condition, .. } | NodeKind::Wait { condition, .. } => seen.add(condition),
+                NodeKind::Repeat { until: Some(condition), .. } => seen.add(condition),
+                NodeKind::Monitor { watches, .. } => watches.iter().for_each(|it| seen.add(&it.condition)),
+                NodeKind::Call(call) => {
+                    call.needs.iter().for_each(|need| seen.add(&need.condition));
+                    let whens = call.needs.iter().filter_map(|need| need.when.as_ref());
+                    let whens = whens.chain(call.effects.iter().filter_map(|made| made.when.as_ref()));
+                    whens.for_each(|when| seen.add(when));
+                }
+                _ => {}
+            }
+        }
+        seen
+    }
+
+    fn add(&mut self, condition: &graph::Condition) {
+        match condition {
+            graph::Condition::Fact(fact) => {
+                self.0.insert((fact.fluent, fact.args.len(), None));
+                self.0.extend(fact.args.iter().zip(0..).map(|(arg, place)| (fact.fluent, place, named(arg))));
+            }
+            graph::Condition::Not(inner) => self.add(inner),
+            graph::Condition::All(parts) | graph::Condition::AnyOf(parts) => {
+                parts.iter().for_each(|part| self.add(part));
+            }
+            graph::Condition::Literal(_) | graph::Condition::Compare(..) => {}
+        }
+    }
+
+    /// Some condition may look at a fact.
+    fn meet(&self, fact: &graph::Fact) -> bool {
+        let has = |place: usize, arg: Option<SmolStr>| self.0.contains(&(fact.fluent, place, arg));
+        fact.args.iter().zip(0..).all(|(arg, place)| match named(arg) {
+            None => has(fact.args.len(), None),
+            own => has(place, None) || has(place, own),
+        })
+    }
+}
+
+/// The entity or case of an argument.
+fn named(arg: &graph::FactArg) -> Option<SmolStr> {
+    match arg {
+        graph::FactArg::Term(graph::Term::Literal(graph::Value::Entity(name) | graph::Value::Case(name))) => {
+            Some(name.clone())
+        }
+        _ => None,
+    }
 }
 
 struct Lowering<'a> {

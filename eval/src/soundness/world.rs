@@ -489,8 +489,12 @@ impl Driver for World<'_> {
         if self.mood == Mood::Veiled && !self.domain.is_closed && chance(&mut self.dice, 10) {
             answer = Answer::Unknown;
         }
-        // No answer is overtaken by a report of what is watched.
+        // No answer is overtaken by a report of what is watched, or by a later answer to the same question.
         let at = if self.is_watched(query) { now } else { self.late() };
+        let is_same =
+            |event: &DriverEvent| matches!(event, DriverEvent::Observed { query: of, .. } if of == query);
+        let before = self.outbox.iter().rfind(|(_, event)| is_same(event)).map_or(at, |(at, _)| *at);
+        let at = at.max(before);
         self.say(at, DriverEvent::Observed { query: query.clone(), answer });
     }
 

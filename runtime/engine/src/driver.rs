@@ -83,7 +83,7 @@ pub trait Driver {
     fn proceed(&mut self, now: Time, goal: GoalId);
     /// Brings everything that a goal uses to a safe stop.
     fn safe_stop(&mut self, now: Time, goal: GoalId);
-    /// Answers a query once.
+    /// Answers a query once, in the order in which it is asked again.
     fn observe(&mut self, now: Time, query: &Query);
     /// Answers a query now and whenever the answer changes.
     fn watch(&mut self, now: Time, query: &Query);

@@ -231,7 +231,9 @@ impl Engine {
         if !same_fluents {
             run.beliefs.read_by(&next.graph);
         }
-        for one in &told {
+        // What is said of every entity is not meant of those of which something else is said.
+        let (wide, single): (Vec<_>, Vec<_>) = told.iter().partition(|one| one.args.contains(&Pattern::Any));
+        for one in single.into_iter().chain(wide) {
             run.beliefs.hear_told(one, &others(&told, one));
         }
         let revision = self.run.revision;
@@ -353,8 +355,10 @@ impl std::error::Error for SwapRefusal {}
 impl Beliefs {
     fn hear_told(&mut self, told: &InitialFact, others: &[&[Pattern]]) {
         let InitialFact { fluent, args, value } = told;
-        if self.standing(fluent, args, *value, others) == FactStanding::Unheard {
-            self.tell(fluent, args.clone(), Truth::from(*value));
+        let standing = self.standing(fluent, args, *value, others);
+        let is_partly_unheard = standing == FactStanding::So && args.contains(&Pattern::Any);
+        if standing == FactStanding::Unheard || is_partly_unheard {
+            self.tell_rest(fluent, args.clone(), Truth::from(*value));
         }
     }
 }

@@ -1,15 +1,17 @@
 //! What the compiler has proven or listed beside what a run finds: the place of the robot at the start, and
 //! the guards of a graph.
 
+use std::cell::Cell;
 use std::collections::BTreeMap;
 
 use motet_graph::{NodeKind, Value, Verdict};
 use motet_robots::builtin;
+use motet_runtime::{Engine, Event, PreparedSwap, StartState, SwapRefusal, Time};
 use motet_sim::{Sim, SimOptions};
 use motet_syntax::{FileId, Source, Sources};
 use motet_tests::{examples, setup};
 
-use crate::soundness::{honest, requests, session_codes, verdicts};
+use crate::soundness::{compiled, honest, requests, session_codes, verdicts};
 
 #[test]
 fn start_the_simulated_room_agrees_with_the_pose_of_the_base() {
@@ -132,4 +134,35 @@ fn proofs_a_test_of_the_hand_may_find_that_something_dropped() {
     let puts = policy("if holding(a) { pass() }");
     assert_eq!(starts(&puts, &|_| Some(false)), 1);
     assert_eq!(starts(&puts, &|_| None), 2);
+    // A step of which it is not known whether it has filled the hand may have done so.
+    let may_take = "action look_at(o: Object)\n    needs not g(o)\naction may_take(o: Object)\n    \
+                    makes holding(o) when f(o), not g(o)\n";
+    let again = "repeat 2 { if holding(a) { pass() } else { look_at(a) may_take(a) } }";
+    let seen = Cell::new(false);
+    let see = |query: &str| match query {
+        "f(a)" => None,
+        "g(a)" => Some(seen.replace(true)),
+        _ => Some(false),
+    };
+    assert_eq!(starts(&format!("{may_take}policy p {{ {again} }}"), &see), 2);
+}
+
+/// Facts about every entity at the start are told to a run, and to a policy that takes over.
+#[test]
+fn proofs_from_what_is_said_of_all_are_told_to_the_run() {
+    for test in ["initially not f(any)\npolicy p { if not f(a)", "policy p { if not holding(a)"] {
+        let policy = format!("{test} {{ make(a) }} use(a) }}");
+        let found = requests(&policy, &mut |effect| honest(effect, |_| None));
+        let starts = found.iter().filter(|request| request.starts_with("start"));
+        assert_eq!(starts.count(), 2, "{policy}: {found:?}");
+    }
+    let (mut out, start) = (Vec::new(), StartState::default());
+    let mut engine = Engine::new(compiled("policy p { make(a) wave() }"), &start).unwrap();
+    engine.handle(Time::ZERO, Event::Begin, &mut out);
+    let made = out.iter().flat_map(|effect| honest(effect, |_| None)).map(Event::Driver).collect::<Vec<_>>();
+    made.into_iter().for_each(|event| engine.handle(Time::ZERO, event, &mut out));
+    let later = compiled("initially not f(any)\npolicy p { avoid(a) }");
+    let later = PreparedSwap::new(later, &engine.running()).unwrap();
+    let refused = engine.swap(Time::ZERO, later, &mut out).err();
+    assert!(matches!(refused, Some(SwapRefusal::Start { .. })), "{refused:?}");
 }

@@ -184,7 +184,7 @@ impl Evaluator<'_> {
         }
         let last = match self.fresh {
             Freshness::Facts(_, last) => Some(last),
-            Freshness::Hands(_, last) if is_held(&fluent.name, truth) => Some(last),
+            Freshness::Hands(_, last) if hand(&fluent.name, truth) == Some(Truth::True) => Some(last),
             Freshness::Hands(..) | Freshness::Readings(_) | Freshness::Before(..) => None,
         };
         if last.is_some_and(|last| seen <= last) && fluent.observable && !self.is_live(&fluent.name, &args) {
@@ -295,12 +295,12 @@ impl Evaluator<'_> {
     }
 }
 
-/// True if a fact with this truth says that a hand holds something.
-pub(crate) fn is_held(fluent: &str, truth: Truth) -> bool {
-    match truth {
-        Truth::True => fluent == motet_stdlib::lang::fluents::HOLDING,
-        Truth::False => fluent == motet_stdlib::lang::fluents::FREE,
-        Truth::Unknown => false,
+/// What a fact with this truth says of a hand: true if it holds something; `None` if it is about no hand.
+pub(crate) fn hand(fluent: &str, truth: Truth) -> Option<Truth> {
+    match fluent {
+        motet_stdlib::lang::fluents::HOLDING => Some(truth),
+        motet_stdlib::lang::fluents::FREE => Some(truth.negated()),
+        _ => None,
     }
 }
 

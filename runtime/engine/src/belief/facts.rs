@@ -65,6 +65,15 @@ impl Beliefs {
         self.apply(&change, Time::ZERO);
     }
 
+    /// Writes what a compiler states of facts of which nothing was said.
+    pub(crate) fn tell_rest(&mut self, fluent: &SmolStr, args: Vec<Pattern>, value: Truth) {
+        let unsaid = |id: &CellId| self.cell(*id).is_some_and(|cell| !cell.written);
+        let cells: Vec<CellId> = self.covered(fluent, &args).filter(unsaid).collect();
+        cells.into_iter().for_each(|id| self.write_cell(id, value, Time::ZERO));
+        let change = BeliefChange { fluent: fluent.clone(), args, value, sure: true, rest: true };
+        self.apply(&change, Time::ZERO);
+    }
+
     /// Relation of the beliefs to a fact from which a policy was proved; `any` stands for every entity for
     /// which none of `others` says something else.
     pub(crate) fn standing(
@@ -87,8 +96,13 @@ impl Beliefs {
             let mut told = self.covered(fluent, args).filter(is_written).filter(is_meant).peekable();
             let is_heard = is_heard || told.peek().is_some();
             let each = told.map(|id| self.cell(id).map_or(Truth::Unknown, |cell| truth_of(&cell.answer)));
-            let rest = facts.wides.iter().rev().find(|wide| covers(&wide.args, args));
-            let rest = rest.map_or(Truth::Unknown, |wide| truth_of(&wide.answer));
+            // Of those that no pattern was about, nothing was said.
+            let answers = |is_meant: fn(&[Pattern], &[Pattern]) -> bool| {
+                let wides = facts.wides.iter().rev().filter(move |wide| is_meant(&wide.args, args));
+                wides.map(|wide| truth_of(&wide.answer))
+            };
+            let rest = answers(covers).next();
+            let rest = rest.unwrap_or_else(|| answers(overlaps).fold(Truth::from(value), Truth::joined));
             (each.fold(rest, Truth::joined), is_heard)
         } else {
             let is_written = self.find_fact(fluent, args).as_ref().is_some_and(is_written);

@@ -10,5 +10,5 @@ mod facts;
 
 pub(crate) use cells::{Beliefs, Cell, CellId, Facts};
 pub(crate) use entities::{Entities, OfKind};
-pub(crate) use evaluator::{Evaluator, Freshness, is_held};
+pub(crate) use evaluator::{Evaluator, Freshness, hand};
 pub(crate) use facts::{BeliefChange, FactStanding, covers, truth_of};

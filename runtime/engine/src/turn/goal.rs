@@ -1,12 +1,12 @@
 //! Goals: what drivers report of them, and how they are ended early.
 
 use super::Turn;
-use crate::belief::{Cell, CellId, Freshness, is_held};
+use crate::belief::{Cell, CellId, Freshness, hand};
 use crate::cleanup::strike;
 use crate::effect::{Effect, Fault, PlannedMotion};
 use crate::event::{DriverEvent, FailureReport, Outcome};
 use crate::ids::GoalId;
-use crate::query::{Answer, Query};
+use crate::query::{Answer, Query, Truth};
 use crate::schedule::{NodeExit, Transition};
 use crate::state::{GoalIntent, Phase};
 use crate::trace::{EndCause, NodeEnding, TraceEventKind};
@@ -357,11 +357,16 @@ impl Turn<'_> {
             known = Some(self.run.beliefs.intern(query));
         }
         let Some(id) = known else { return };
-        let was_held = self.is_tested_and_held(id);
+        let before = self.tested_hand(id);
         if self.run.beliefs.observe(id, answer, self.run.now) && self.ask_again(id) {
             return;
         }
-        self.run.is_undone |= was_held && !self.is_tested_and_held(id);
+        // A step may have filled a hand of which nothing is known.
+        self.run.is_undone |= match (before, self.tested_hand(id)) {
+            (Some(Truth::True), held) => held != Some(Truth::True),
+            (Some(Truth::Unknown), held) => held == Some(Truth::False),
+            (Some(Truth::False) | None, _) => false,
+        };
         // A reading that was taken afresh counts from now on, also where it reads the same.
         self.run.beliefs.note(id);
         let mut asked = std::mem::take(&mut self.run.asked);
@@ -374,13 +379,13 @@ impl Turn<'_> {
         self.run.asked = asked;
     }
 
-    /// True if a test has asked for a fact by which a hand is believed to hold something.
-    fn is_tested_and_held(&self, id: CellId) -> bool {
+    /// What is believed of a hand by a fact that a test has asked for: true if it holds something.
+    fn tested_hand(&self, id: CellId) -> Option<Truth> {
         let tests = &self.plan.graph.hands;
         let is_tested = self.run.asked.iter().any(|(cell, node)| *cell == id && tests.contains(node));
         match self.run.beliefs.cell(id).filter(|_| is_tested).map(|cell| &*cell.query) {
-            Some(Query::Fact { fluent, args }) => is_held(fluent, self.run.beliefs.fact(fluent, args).0),
-            Some(Query::Measure { .. } | Query::Field { .. }) | None => false,
+            Some(Query::Fact { fluent, args }) => hand(fluent, self.run.beliefs.fact(fluent, args).0),
+            Some(Query::Measure { .. } | Query::Field { .. }) | None => None,
         }
     }
 
