@@ -74,6 +74,10 @@ fn may_have(tokens: &[Token], at: usize) -> Option<usize> {
 /// Finds where the request itself begins.
 pub(crate) fn skip_leads(tokens: &[Token], mut at: usize) -> usize {
     loop {
+        // Of a row of commas only the last stands before something.
+        let rest = tokens.get(at..).unwrap_or_default();
+        let commas = rest.iter().take_while(|token| matches!(token, Token::Comma)).count();
+        at += commas.saturating_sub(1);
         if contrasts(tokens, at) {
             return at;
         }
