@@ -20,6 +20,8 @@ AWAY = (0.0, 0.0, -50.0)
 ELSEWHERE = 0.08
 # Error in m of a seen height up to which a thing stands on what is below it.
 SLACK = 0.04
+# Thickness in m of the bottom of a container.
+BOTTOM = 0.01
 
 
 class Beliefs:
@@ -132,6 +134,17 @@ class Beliefs:
             if is_over and half[0] - SLACK <= local[2] - top <= half[-1] + SLACK:
                 found.append((abs(local[2] - top - half[-1]), one))
         return ("on", min(found)[1]) if found else (None, None)
+
+    def falls(self, thing, container, position, quaternion):
+        """Where a thing lies that the hand lets go over a container: on its bottom. Elsewhere it stays."""
+        shape, own = (self.entities[one].get("shape", {}) for one in (container, thing))
+        if self.entities[container]["kind"] == "Container" and shape:
+            at, data = self.world.model.leaf_of(container), self.room()
+            local = data.xmat[at].reshape(3, 3).T @ (position - data.xpos[at])
+            bottom = data.xpos[at][2] - sight.half_height(shape) + BOTTOM + sight.halves(own)[0]
+            if inside(shape, np.array([local[0], local[1], 0.0])) and position[2] > bottom:
+                return np.array([*position[:2], bottom]), quaternion
+        return position, quaternion
 
     def saw(self, entity, position, quaternion=None):
         """Notes where something is."""

@@ -8,7 +8,7 @@
 | `hand.drop` | drives of 1 m and back, with a turn, with what a grasp has held |
 | `hand.short` | all feasible `put` |
 | `hand.stick` | all feasible `pull` and `push` |
-| `camera.miss` | looks at the things on a surface from where `go_to` leaves the robot, by pixels |
+| `camera.miss` | looks by pixels at the things on a surface from where `go_to` leaves the robot, and from behind |
 
 The errors of hand and camera, of the room and of friction are those of the profile. Each rate has its interval at 95 %.
 """
@@ -61,6 +61,8 @@ class Count:
 # Rates by the part of a calibration, and the motions of the trials.
 PARTS = {"grasp": ["hand.slip", "hand.drop"], "put": ["hand.short"], "door": ["hand.stick"], "camera": ["camera.miss"]}
 KINDS = {"grasp": {"reach"}, "put": {"put"}, "door": {"pull", "push"}}
+# Distances in m behind the place from which a thing is taken, where it is looked at.
+BACK = (0.0, 0.6, 1.2)
 
 
 def hands(command, robot, scene, kinds, rates, seeds, found):
@@ -98,14 +100,17 @@ def looks(command, robot, scene, rates, seeds, found):
     for entity in model.scene["entities"]:
         if entity.get("on") in model.entities and entity["id"] in model.free:
             on.setdefault(entity["on"], []).append(entity["id"])
-    for support, things in on.items():
-        stood = copy.deepcopy(model.scene)
+    places = ((support, back) for support in on for back in (BACK if model.drives else BACK[:1]))
+    for support, back in places:
+        things, stood = on[support], copy.deepcopy(model.scene)
         if model.drives:
             way = verdicts(command, robot, scene, "go_to(%s)" % quoted(support))
             if not way:
                 continue
             last = way[0][1]["path"][-1]
-            stood["robot"].update(base=last["base"], joints=last["joints"], holding=None)
+            x, y, yaw = last["base"]
+            base = [x - back * np.cos(yaw), y - back * np.sin(yaw), yaw]
+            stood["robot"].update(base=base, joints=last["joints"], holding=None)
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "stood.json")
             with open(path, "w", encoding="utf-8") as out:

@@ -233,7 +233,7 @@ class Tasks(Mover):
         # Where it is let go is felt; where it comes to rest is for the next look.
         released = self.beliefs.held_pose(thing)
         self.beliefs.hand = None
-        self.beliefs.looked(thing, *released)
+        self.beliefs.looked(thing, *self.beliefs.falls(thing, on, *released))
         yield from self.grip(False, 0.8)
         yield from self.straight(-0.08 * world.tip()[1][:, 2])
         yield from self.way_back(path, begun, motion, None)

@@ -378,3 +378,19 @@ def test_fingers_feel_thin_things(motet, robot):
         world.place(thing, np.array([0.0, 0.0, -5.0]))
         world.wait(0.5)
         assert not world.is_gripping(), query
+
+
+def test_what_falls_into_a_bin_lies_in_it(motet):
+    """The hand lets it go above the rim, and the camera does not show the bottom."""
+    driver = Driver(load("hsr", "living_room", motet), motet, Options(), judged=True)
+    try:
+        driver.eyes.look()
+        carry_out_by(driver, 1, "go", to="coffee_table")
+        carry_out_by(driver, 2, "pick", object="remote_1")
+        carry_out_by(driver, 3, "go", to="trash_bin")
+        carry_out_by(driver, 4, "place", object="remote_1", on="trash_bin")
+        assert truths(driver, "in", "remote_1", "trash_bin") == ({"truth": True}, {"truth": True})
+    except NoGraphics as error:
+        pytest.skip(str(error))
+    finally:
+        driver.eyes.close()

@@ -160,3 +160,26 @@ def test_a_side_of_a_large_thing_tells_where_all_of_it_is(motet):
     finally:
         eyes.close()
     assert np.linalg.norm(np.array(found["vise"]["pose"]["xyz"]) - world.pose("vise")[0]) < 0.05
+
+
+def test_a_book_on_a_notebook_of_its_colour_is_seen_as_both(motet):
+    world = World(load("hsr", "lab", motet))
+    target = world.target.copy()
+    target[:3] = [0.2, -1.2, -np.pi / 2.0]
+    target[world.model.controls["head_tilt_joint"]] = -0.5
+    world.data.qpos[world.model.control_qpos] = target
+    world.step(target)
+    eyes = Eyes(world, Beliefs(world))
+    try:
+        both = {one["id"]: np.array(one["pose"]["xyz"]) for one in eyes.detections()}
+        for thing in ("notebook", "book"):
+            assert np.linalg.norm(both[thing] - world.pose(thing)[0]) < 0.02, (thing, both[thing])
+        # The book alone is no pile.
+        world.place("notebook", np.array([4.0, 4.0, 0.05]))
+        world.wait(0.5)
+        alone = {one["id"] for one in eyes.detections()}
+        assert "book" in alone and "notebook" not in alone, alone
+    except NoGraphics as error:
+        pytest.skip(str(error))
+    finally:
+        eyes.close()
