@@ -2,13 +2,11 @@
 //! same driver as `motet run`.
 
 use std::cell::RefCell;
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::str::FromStr;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use motet::driver_camera::DriverCamera;
@@ -18,7 +16,7 @@ use motet_host::remote::protocol::Hello;
 use motet_host::remote::{DriverAddress, DriverTimeouts, RemoteDriver};
 use motet_planner::dialogue::{Conversation, DialogueObserver, RunRecorder};
 use motet_robots::builtin;
-use motet_robots::card::{CameraMount, Robot};
+use motet_robots::card::Robot;
 use motet_robots::scene::{Scene, write};
 use motet_runtime::journal::JournalHead;
 use motet_runtime::{Answer, Driver, Engine, Event, Observer, Pattern, Query, RunEnd, StartState, Time, run};
@@ -135,7 +133,9 @@ impl Bench {
     ) -> Result<TrialRobot, String> {
         if self.driver == DriverKind::Kinematic {
             let world = (told != real).then(|| real.clone());
-            let (profile, eye) = (self.profile.clone(), mount(&robot.name));
+            let body = builtin::robot(&robot.name);
+            let eye = body.and_then(|body| RobotModel::new(robot, &body.urdf).camera_mount());
+            let profile = self.profile.clone();
             let options = SimOptions { seed, faults, profile, world, eye, ..SimOptions::default() };
             return Ok(TrialRobot::Kinematic(shared(Sim::new(robot, told, options))));
         }
@@ -169,16 +169,6 @@ impl Bench {
     pub fn sighted<'a>(&self, talk: Conversation<'a>, robot: &TrialRobot) -> Conversation<'a> {
         if self.has_pictures { talk.with_eyes(robot.eyes()) } else { talk }
     }
-}
-
-/// Camera of a built-in robot. It is found once, since it takes some milliseconds.
-fn mount(robot: &str) -> Option<CameraMount> {
-    static MOUNTS: Mutex<BTreeMap<String, Option<CameraMount>>> = Mutex::new(BTreeMap::new());
-    let mut mounts = MOUNTS.lock().unwrap_or_else(PoisonError::into_inner);
-    *mounts.entry(robot.to_owned()).or_insert_with(|| {
-        let body = builtin::robot(robot)?;
-        RobotModel::new(&body.robot, &body.urdf).camera_mount()
-    })
 }
 
 fn shared<T>(of: T) -> Rc<RefCell<T>> {

@@ -2,10 +2,10 @@
 
 use crate::command::{Placing, SimCommand};
 use crate::failure::Failure;
-use crate::sight::{ViewDirection, the_one};
+use crate::sight::the_one;
 use crate::sim::Sim;
 use crate::task::{NextStage, Task};
-use crate::world::Rest;
+use crate::world::{Rest, ViewDirection};
 use motet_graph::{Pose, Value};
 use motet_runtime::Outcome;
 use motet_stdlib::lang::failures;

@@ -6,9 +6,9 @@ use crate::command::SimCommand;
 use crate::failure::Failure;
 use crate::faults::WorldEvent;
 use crate::motion::BaseMotion;
-use crate::sight::ViewDirection;
 use crate::sim::Sim;
 use crate::task::{NextStage, Task, TaskStage};
+use crate::world::ViewDirection;
 use motet_graph::{Graph, Manner, Waypoint};
 use motet_runtime::{
     Capabilities, Command, Detection, Driver, DriverEvent, GoalId, Moved, Outcome, PrimitiveSet, Query,

@@ -1,8 +1,7 @@
 //! Answers to queries, from a world. What the world does not know of it leaves unknown.
 
 use crate::body::UprightBody;
-use crate::sight::ViewDirection;
-use crate::world::{ArmPose, Rest, Role, SimWorld};
+use crate::world::{ArmPose, Rest, Role, SimWorld, ViewDirection};
 use indexmap::IndexMap;
 use motet_graph::Value;
 use motet_robots::scene::NEAR_M;

@@ -6,9 +6,8 @@
 use crate::body::turned;
 use crate::camera::{CameraLens, encoded, render};
 use crate::chance::Chance;
-use crate::sight::ViewDirection;
 use crate::sim::Sim;
-use crate::world::Role;
+use crate::world::{Role, ViewDirection};
 use motet_graph::Pose;
 use motet_robots::scene::EntityShape;
 use motet_runtime::{CameraImage, Detection, Perception, RgbdView, Time};

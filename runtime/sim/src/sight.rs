@@ -8,7 +8,7 @@ use crate::body::distance;
 use crate::chance::Chance;
 use crate::failure::Failure;
 use crate::sim::Sim;
-use crate::world::{Rest, Role, SimWorld, Thing};
+use crate::world::{Rest, Role, SimWorld, Thing, ViewDirection};
 use motet_graph::Pose;
 use motet_robots::scene::{Entity, Palette, colour};
 use motet_runtime::{ToldSupport, ToldThing};
@@ -27,17 +27,6 @@ const MISS_RAD: f64 = 0.1;
 const MOST_MISSED: f64 = 0.95;
 /// Difference in m between a belief and what is seen from which on it is news.
 const NEWS_M: f64 = 0.02;
-
-/// Freedom of the robot to turn while it looks.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum ViewDirection {
-    /// It looks where it looks.
-    Still,
-    /// It turns its camera, as far as that turns while the base stands still.
-    Ahead,
-    /// It turns until it has seen everything about it.
-    Around,
-}
 
 impl SimWorld {
     /// True if a look sees a thing now. What is said of one that has no place in the scene counts until the

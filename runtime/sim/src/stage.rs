@@ -3,10 +3,10 @@
 use crate::body::{BasePose, turned};
 use crate::command::SimCommand;
 use crate::failure::Failure;
-use crate::sight::{ViewDirection, the_one};
+use crate::sight::the_one;
 use crate::sim::Sim;
 use crate::task::{NextStage, Task};
-use crate::world::Role;
+use crate::world::{Role, ViewDirection};
 use motet_graph::{Pose, Value};
 use motet_runtime::Outcome;
 use motet_stdlib::lang::failures;

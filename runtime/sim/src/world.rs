@@ -268,6 +268,17 @@ impl SimWorld {
     }
 }
 
+/// Freedom of the robot to turn while it looks.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum ViewDirection {
+    /// It looks where it looks.
+    Still,
+    /// It turns its camera, as far as that turns while the base stands still.
+    Ahead,
+    /// It turns until it has seen everything about it.
+    Around,
+}
+
 /// A thing, a place or a person.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Thing {

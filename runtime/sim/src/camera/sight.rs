@@ -5,8 +5,7 @@ use super::lens::{CameraLens, dot, minus};
 use super::scenery::parts;
 use super::solid::Solid;
 use crate::body::turned;
-use crate::sight::ViewDirection;
-use crate::world::{ArmPose, Rest, Role, SimWorld, Thing};
+use crate::world::{ArmPose, Rest, Role, SimWorld, Thing, ViewDirection};
 use smol_str::SmolStr;
 
 /// Rays from the middle to each side of the grid over a thing.
@@ -48,8 +47,8 @@ impl SimWorld {
             && self.lens(look, point).frames(minus(point, self.eye_in_map()))
     }
 
-    /// Share from 0 to 1 of a thing that is in view and that nothing hides from the camera: of one of this world,
-    /// or of one that is believed to be in it. O(things).
+    /// Share from 0 to 1 of a thing that is in view and not hidden: of one of this world, or of one that is
+    /// believed to be in it. O(things).
     pub(crate) fn seen_share(&self, id: &str, thing: &Thing, look: ViewDirection) -> f64 {
         let holder = match &thing.rest {
             Rest::With(person) => Some(person),

@@ -6,7 +6,7 @@
 
 use motet_robots::card::CameraMount;
 use motet_robots::scene::Entity;
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::Vector3;
 
 use crate::collision::{Shape, Solid};
 use crate::kinematics::{Dof, quasi_random};
@@ -19,9 +19,8 @@ use crate::planning::scene::{AllowedCollisions, Configuration, RobotModel};
 
 /// Greatest angle between a camera's axis and its target, in rad; for a fixed camera up and down only.
 const AIM: f64 = 0.37;
-/// Joints of a camera of which both ends are tried together, and positions between the ends.
-const ENDS: usize = 6;
-const TURNS: usize = 64;
+/// Positions of its joints by which the elevations of a camera are found.
+const TURNS: usize = 256;
 /// Distance of sampled points from an entity's centre, as a share of its half extents.
 const OUT: f64 = 0.8;
 
@@ -98,36 +97,28 @@ impl RobotModel {
     #[must_use]
     pub fn camera_mount(&self) -> Option<CameraMount> {
         let link = self.tree().link(self.card().cameras.values().next()?.frame.as_ref()?).ok()?;
-        let camera = |joints: Vec<f64>| {
-            self.map_from_links(&Configuration { base: [0.0; 3], joints }).get(link).copied()
+        let camera = |joints: &[f64]| {
+            let poses = self.map_from_links(&Configuration { base: [0.0; 3], joints: joints.to_vec() });
+            let pose = poses.get(link)?;
+            Some((
+                pose.translation.vector.into(),
+                libm::asin((pose.rotation * Vector3::z()).z.clamp(-1.0, 1.0)),
+            ))
         };
-        let elevation =
-            |camera: &Isometry3<f64>| libm::asin((camera.rotation * Vector3::z()).z.clamp(-1.0, 1.0));
-        let start = self.posture("start", self.rest()).unwrap_or_else(|| self.rest().to_vec());
-        let (home, start) = (camera(self.rest().to_vec())?, camera(start)?);
-        let rests = [elevation(&home), elevation(&start)];
+        let mut joints = self.posture("start", self.rest()).unwrap_or_else(|| self.rest().to_vec());
+        let ((_, home), (eye, start)) = (camera(self.rest())?, camera(&joints)?);
         let (moving, dofs) = head(self, link);
-        // The ends of the joints, and positions between them.
-        let ends = (0..1_usize << moving.len().min(ENDS)).map(|ends| {
-            let end = |(at, dof): (usize, &Dof)| {
-                let (least, greatest) = dof.sampling_range();
-                if ends >> at.min(ENDS) & 1 == 0 { least } else { greatest }
-            };
-            dofs.iter().enumerate().map(end).collect()
-        });
-        let mut tilt = rests;
-        tilt.sort_by(f64::total_cmp);
-        for positions in ends.chain((1..=TURNS).map(|at| quasi_random(&dofs, at))) {
-            let mut joints = self.rest().to_vec();
-            for (slot, position) in moving.iter().zip(positions) {
+        let mut tilt = [home.min(start), home.max(start)];
+        for at in 1..=TURNS {
+            for (slot, position) in moving.iter().zip(quasi_random(&dofs, at)) {
                 joints.get_mut(*slot).into_iter().for_each(|joint| *joint = position);
             }
-            let up = elevation(&camera(joints)?);
+            let (_, up) = camera(&joints)?;
             tilt = [tilt[0].min(up), tilt[1].max(up)];
         }
         let arm = self.hand().map(|hand| &hand.solver.chain().in_tree);
         let is_on_arm = moving.iter().any(|at| arm.is_some_and(|arm| arm.contains(at)));
-        Some(CameraMount { eye: start.translation.vector.into(), rests, tilt, is_on_arm })
+        Some(CameraMount { eye, rests: [home, start], tilt, is_on_arm })
     }
 }
 
