@@ -1,8 +1,8 @@
 //! A model server that answers with the bytes of a case, and a client that asks it in each dialect.
 
+use motet_client::dialect::Dialect;
 use motet_client::{Client, ClientSettings, ServerUrl};
 use motet_compiler::Session;
-use motet_client::dialect::Dialect;
 use motet_decode::{Grammar, Subset};
 use motet_planner::model::{Message, Model as _, ReplyEvent, Role};
 use std::io::{Read as _, Write as _};
