@@ -45,13 +45,16 @@ pub(crate) fn lower(
     };
     lowering.region(&program.body, None);
     // What is said of many things, or follows from the pose of the base, is told only where a condition looks
-    // at it, so that a graph does not grow with the room. A driver that does not know it, or a policy that
-    // takes over when it holds no longer, would else contradict the proof.
-    let seen = SeenFacts::of(&lowering.nodes);
+    // at it: a driver that does not know it, or a policy that takes over when it holds no longer, would else
+    // contradict the proof. Where it names a thing, only a test counts, so that a graph does not grow with the
+    // room.
+    let tests = SeenFacts::of_tests(&lowering.nodes);
+    let seen = SeenFacts::of_calls(&lowering.nodes, tests.clone());
     let given = environment.given.iter().map(|(fact, value)| (fact, *value, fact.args.contains(&None)));
     let of_pose = environment.base_pose_facts.facts().map(|(fact, value)| (fact, value, true));
     let initial = given.chain(of_pose).filter_map(|(known, value, is_wide)| {
         let fact = lowering.tables.fact(known, &[], None)?;
+        let seen = if known.args.iter().all(Option::is_none) { &seen } else { &tests };
         let is_told = !is_wide || (seen.meet(&fact) && !environment.leaves_open(known));
         is_told.then_some(graph::InitialFact { fact, value })
     });
@@ -144,25 +147,32 @@ fn is_observable(condition: &Condition, library: &Library) -> bool {
 
 /// The facts that conditions look at: for each argument of each fluent the values, or `None` for any. An
 /// argument behind the last stands for the fluent.
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct SeenFacts(FxHashSet<(graph::FluentId, usize, Option<SmolStr>)>);
 
 impl SeenFacts {
-    fn of(nodes: &[graph::Node]) -> Self {
+    /// Facts at which `if`, `wait`, `repeat until` and monitors look.
+    fn of_tests(nodes: &[graph::Node]) -> Self {
         let mut seen = Self::default();
         for node in nodes {
             match &node.kind {
                 NodeKind::If { condition, .. } | NodeKind::Wait { condition, .. } => seen.add(condition),
                 NodeKind::Repeat { until: Some(condition), .. } => seen.add(condition),
                 NodeKind::Monitor { watches, .. } => watches.iter().for_each(|it| seen.add(&it.condition)),
-                NodeKind::Call(call) => {
-                    call.needs.iter().for_each(|need| seen.add(&need.condition));
-                    let whens = call.needs.iter().filter_map(|need| need.when.as_ref());
-                    let whens = whens.chain(call.effects.iter().filter_map(|made| made.when.as_ref()));
-                    whens.for_each(|when| seen.add(when));
-                }
                 _ => {}
             }
+        }
+        seen
+    }
+
+    /// Facts at which needs and effects look, beside some.
+    fn of_calls(nodes: &[graph::Node], mut seen: Self) -> Self {
+        for node in nodes {
+            let NodeKind::Call(call) = &node.kind else { continue };
+            call.needs.iter().for_each(|need| seen.add(&need.condition));
+            let whens = call.needs.iter().filter_map(|need| need.when.as_ref());
+            let whens = whens.chain(call.effects.iter().filter_map(|made| made.when.as_ref()));
+            whens.for_each(|when| seen.add(when));
         }
         seen
     }
