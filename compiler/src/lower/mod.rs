@@ -46,8 +46,7 @@ pub(crate) fn lower(
     lowering.region(&program.body, None);
     // What is said of many things, or follows from the pose of the base, is told only where a condition looks
     // at it: a driver that does not know it, or a policy that takes over when it holds no longer, would else
-    // contradict the proof. Where it names a thing, only a test counts, so that a graph does not grow with the
-    // room.
+    // contradict the proof. Where it names a thing, only tests count: a graph does not grow with the room.
     let tests = SeenFacts::of_tests(&lowering.nodes);
     let seen = SeenFacts::of_calls(&lowering.nodes, tests.clone());
     let given = environment.given.iter().map(|(fact, value)| (fact, *value, fact.args.contains(&None)));
