@@ -139,7 +139,8 @@ pub(crate) fn without_key(key: &ApiKey, answer: &mut Value) {
 /// The text of a whole answer in the protocol of a dialect; `None` if it has none.
 ///
 /// ```
-/// /// use serde_json::json;
+/// use motet_client::dialect::Dialect;
+/// use serde_json::json;
 ///
 /// let openai = json!({"choices": [{"message": {"role": "assistant", "content": "yes"}}]});
 /// assert_eq!(motet_client::content(None, &openai).as_deref(), Some("yes"));
