@@ -243,6 +243,8 @@ async def over_http(folder):
                 assert answer.status_code == 413, answer
             except httpx2.TransportError:
                 pass  # The server does not read on, so the client may see the end of the connection first.
+        # In a connection of its own: the server has closed the one whose request it did not read.
+        async with httpx2.AsyncClient() as http:
             answer = await http.post(address.replace("/mcp", "/other"), json=list_tools, headers=accept | bearer)
             assert answer.status_code == 404, answer
         print("http: strangers are refused")
