@@ -2,11 +2,13 @@
 //! same driver as `motet run`.
 
 use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::str::FromStr;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use motet::driver_camera::DriverCamera;
@@ -16,7 +18,7 @@ use motet_host::remote::protocol::Hello;
 use motet_host::remote::{DriverAddress, DriverTimeouts, RemoteDriver};
 use motet_planner::dialogue::{Conversation, DialogueObserver, RunRecorder};
 use motet_robots::builtin;
-use motet_robots::card::Robot;
+use motet_robots::card::{CameraMount, Robot};
 use motet_robots::scene::{Scene, write};
 use motet_runtime::journal::JournalHead;
 use motet_runtime::{Answer, Driver, Engine, Event, Observer, Pattern, Query, RunEnd, StartState, Time, run};
@@ -133,9 +135,7 @@ impl Bench {
     ) -> Result<TrialRobot, String> {
         if self.driver == DriverKind::Kinematic {
             let world = (told != real).then(|| real.clone());
-            let body = builtin::robot(&robot.name);
-            let eye = body.and_then(|body| RobotModel::new(robot, &body.urdf).camera_mount());
-            let profile = self.profile.clone();
+            let (profile, eye) = (self.profile.clone(), camera_mount(robot));
             let options = SimOptions { seed, faults, profile, world, eye, ..SimOptions::default() };
             return Ok(TrialRobot::Kinematic(shared(Sim::new(robot, told, options))));
         }
@@ -169,6 +169,14 @@ impl Bench {
     pub fn sighted<'a>(&self, talk: Conversation<'a>, robot: &TrialRobot) -> Conversation<'a> {
         if self.has_pictures { talk.with_eyes(robot.eyes()) } else { talk }
     }
+}
+
+/// Camera of a built-in robot, found once for all trials: the model of a robot takes some milliseconds.
+fn camera_mount(robot: &Robot) -> Option<CameraMount> {
+    static MOUNTS: Mutex<BTreeMap<String, Option<CameraMount>>> = Mutex::new(BTreeMap::new());
+    let find = || RobotModel::new(robot, &builtin::robot(&robot.name)?.urdf).camera_mount();
+    let mut mounts = MOUNTS.lock().unwrap_or_else(PoisonError::into_inner);
+    *mounts.entry(robot.name.to_string()).or_insert_with(find)
 }
 
 fn shared<T>(of: T) -> Rc<RefCell<T>> {

@@ -96,6 +96,10 @@ impl RobotModel {
     /// turn it up and down, whatever may be in their way. `None` if the card does not name the camera's link.
     #[must_use]
     pub fn camera_mount(&self) -> Option<CameraMount> {
+        *self.camera_mount.get_or_init(|| self.find_camera_mount())
+    }
+
+    fn find_camera_mount(&self) -> Option<CameraMount> {
         let link = self.tree().link(self.card().cameras.values().next()?.frame.as_ref()?).ok()?;
         let camera = |joints: &[f64]| {
             let poses = self.map_from_links(&Configuration { base: [0.0; 3], joints: joints.to_vec() });

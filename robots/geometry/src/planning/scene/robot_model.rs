@@ -1,7 +1,9 @@
 //! Robot model for motion queries: card, kinematics, body, and the solver of its arm: in closed form where
 //! the chain has one, else in steps.
 
-use motet_robots::card::{Drive, HandSpec, Robot};
+use std::sync::OnceLock;
+
+use motet_robots::card::{CameraMount, Drive, HandSpec, Robot};
 use motet_robots::urdf::Urdf;
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 use smol_str::SmolStr;
@@ -34,6 +36,8 @@ pub struct RobotModel {
     extent: f64,
     /// Flag of each variable: set where it turns some part.
     turning: Vec<bool>,
+    /// Camera of the card, once it was asked for.
+    pub(crate) camera_mount: OnceLock<Option<CameraMount>>,
 }
 
 /// Hand with the arm that carries it.
@@ -103,6 +107,7 @@ impl RobotModel {
             rest,
             extent: 0.0,
             turning: vec![],
+            camera_mount: OnceLock::new(),
         };
         let turns = |at: usize| {
             let mut ancestors = model.ancestors.iter().flatten();
