@@ -131,7 +131,9 @@ pub fn run(settings: &Settings) -> Result<(Vec<String>, Vec<Table>), String> {
         let (mut all, bar) = (Answers::default(), ProgressBar::new(rooms));
         let ended = batch::in_order(settings.jobs, 1, seeds, judge, |room| {
             bar.inc(1);
-            cache.write();
+            if !settings.is_unjudged {
+                cache.write();
+            }
             let written = out.write(&room).map_err(|error| error.to_string());
             all.add(room);
             written.map_or_else(ControlFlow::Break, ControlFlow::Continue)

@@ -173,7 +173,10 @@ pub fn command(args: &[String]) -> Result<(String, bool), String> {
             "--unjudged" => settings.is_unjudged = true,
             "--witnesses" => settings.witnesses = Some(value()?.into()),
             "--targets" => settings.targets = Some(value()?.into()),
-            "-j" | "--jobs" => settings.jobs = number(value()?)?.clamp(1, 1024) as usize,
+            "-j" | "--jobs" => {
+                let jobs = Some(number(value()?)?).filter(|jobs| (1..=1024).contains(jobs));
+                settings.jobs = jobs.ok_or("the number of threads is from 1 to 1024")? as usize;
+            }
             "--shard" => settings.shard = value()?.parse()?,
             "--json" => is_json = true,
             file if !file.starts_with('-') => {
