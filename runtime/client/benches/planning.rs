@@ -75,11 +75,8 @@ fn overhead() {
     }
     println!("once for the robot in the room: {:.3?}", rank(&mut made, 50));
     println!("kitchen, hsr, {} requests; median, 95th and 99th percentile", all.len());
-    for (name, laps) in &mut parts {
-        let [half, most, nearly_all] = [50, 95, 99].map(|percent| rank(laps, percent));
-        println!("  {name:<34} {half:>9.3?} {most:>9.3?} {nearly_all:>9.3?}");
-    }
-    for (name, laps) in [("together", &mut all), ("without what is read as it arrives", &mut waited)] {
+    let sums = [("together", &mut all), ("without what is read as it arrives", &mut waited)];
+    for (name, laps) in parts.iter_mut().map(|(name, laps)| (*name, laps)).chain(sums) {
         let [half, most, nearly_all] = [50, 95, 99].map(|percent| rank(laps, percent));
         println!("  {name:<34} {half:>9.3?} {most:>9.3?} {nearly_all:>9.3?}");
     }

@@ -168,7 +168,7 @@ impl Sim {
         (thing.lost, thing.seen_at, thing.visible_at_start) = (false, None, None);
     }
 
-    /// How a question makes the robot look: it turns its camera, unless the arm bears it and is in use.
+    /// Look that answers a question: the robot turns its camera, unless the arm bears it and is in use.
     pub(crate) fn glance(&self) -> ViewDirection {
         let is_busy = self.world.eye.is_on_arm && !self.tasks.is_empty();
         if is_busy { ViewDirection::Still } else { ViewDirection::Ahead }

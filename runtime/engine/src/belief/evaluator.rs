@@ -295,7 +295,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// What a fact with this truth says of a hand: true if it holds something; `None` if it is about no hand.
+/// State of a hand by a fact with this truth: true if it holds something; `None` for other facts.
 pub(crate) fn hand(fluent: &str, truth: Truth) -> Option<Truth> {
     match fluent {
         motet_stdlib::lang::fluents::HOLDING => Some(truth),

@@ -379,7 +379,7 @@ impl Turn<'_> {
         self.run.asked = asked;
     }
 
-    /// What is believed of a hand by a fact that a test has asked for: true if it holds something.
+    /// Believed state of a hand by a fact that a test has asked for: true if it holds something.
     fn tested_hand(&self, id: CellId) -> Option<Truth> {
         let tests = &self.plan.graph.hands;
         let is_tested = self.run.asked.iter().any(|(cell, node)| *cell == id && tests.contains(node));
