@@ -204,6 +204,8 @@ pub(crate) struct Run {
     pub(crate) checked: u64,
     /// Observations that steps await.
     pub(crate) asked: Vec<(CellId, NodeId)>,
+    /// Facts about hands that tests have asked for and nobody has answered, also where the test has ended.
+    pub(crate) hands_asked: Vec<CellId>,
     pub(crate) work: WorkList,
     pub(crate) dirty: BinaryHeap<Reverse<u32>>,
     /// Outcome of the run after all regions have ended.
@@ -285,6 +287,7 @@ impl Run {
             checks: Vec::new(),
             checked: 0,
             asked: Vec::new(),
+            hands_asked: Vec::new(),
             work: WorkList::default(),
             dirty: BinaryHeap::new(),
             ending: None,

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use motet_graph::{NodeKind, Value, Verdict};
 use motet_robots::builtin;
-use motet_runtime::{Engine, Event, PreparedSwap, StartState, SwapRefusal, Time};
+use motet_runtime::{Engine, Event, PreparedSwap, Query, StartState, SwapRefusal, Time};
 use motet_sim::{Sim, SimOptions};
 use motet_syntax::{FileId, Source, Sources};
 use motet_tests::{examples, setup};
@@ -145,6 +145,48 @@ fn proofs_a_test_of_the_hand_may_find_that_something_dropped() {
         _ => Some(false),
     };
     assert_eq!(starts(&format!("{may_take}policy p {{ {again} }}"), &see), 2);
+}
+
+/// A thing drops while a test asks for it, and another part of the condition decides the test first.
+#[test]
+fn proofs_a_test_waits_for_the_hand_that_it_asks_for() {
+    let take = "action take(o: Object)\n    needs not g(o)\n    makes holding(o), g(o)\n\
+                action use_g(o: Object)\n    needs g(o)\n";
+    let policy = format!(
+        "{take}initially not g(a)\npolicy p {{ take(a) if f(a) and holding(a) {{ pass() }} use_g(a) }}"
+    );
+    assert_eq!(verdicts("use_g", &policy), [Verdict::Deferred]);
+    let starts = |is_held: Option<bool>| {
+        let see = |query: &Query| match query.to_string().as_str() {
+            "holding(a)" => is_held,
+            _ => Some(false),
+        };
+        let found = requests(&policy, &mut |effect| honest(effect, see));
+        found.iter().filter(|request| request.starts_with("start")).count()
+    };
+    // It was dropped, and what the step made besides is gone; it was not; nobody can tell.
+    assert_eq!(starts(Some(false)), 1);
+    assert_eq!(starts(Some(true)), 2);
+    assert_eq!(starts(None), 2);
+}
+
+/// Behind a `wait` for what the steps before it rule out, a guard asks for what they made.
+#[test]
+fn proofs_a_wait_lets_the_world_undo_what_steps_made() {
+    let policy = "initially not f(a), g(a)\npolicy p { make(a) wait until g(a) within 5 s use(a) }";
+    assert_eq!(verdicts("use", policy), [Verdict::Deferred]);
+    let starts = |is_made: Option<bool>| {
+        let see = |query: &Query| match query.to_string().as_str() {
+            "g(a)" => Some(true),
+            _ => is_made,
+        };
+        let found = requests(policy, &mut |effect| honest(effect, see));
+        found.iter().filter(|request| request.starts_with("start")).count()
+    };
+    assert_eq!(starts(Some(false)), 1);
+    assert_eq!(starts(Some(true)), 2);
+    // Where nobody can tell, what was believed stands.
+    assert_eq!(starts(None), 2);
 }
 
 /// Facts about every entity at the start are told to a run, and to a policy that takes over.

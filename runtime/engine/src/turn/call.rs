@@ -69,11 +69,11 @@ impl Turn<'_> {
 
     fn check(&mut self, node: NodeId) {
         match self.first_look(node) {
-            GuardCheck::Unknown(refusal) => {
+            GuardCheck::Unknown(_) => {
                 if self.ask(node) {
                     self.run.nodes.at_mut(node.index()).phase = Phase::Checking;
                 } else {
-                    self.go_without(node, refusal);
+                    self.go_without(node);
                 }
             }
             GuardCheck::Ask(motion) => self.ask_for_motion(node, motion),
@@ -111,7 +111,7 @@ impl Turn<'_> {
             GuardCheck::Unknown(_) if self.ask_more(node) => {}
             // What was known when the motion was asked for may have become unknown since.
             GuardCheck::Unknown(_) if self.is_verifying(node) && self.ask(node) => {}
-            GuardCheck::Unknown(refusal) => self.go_without(node, refusal),
+            GuardCheck::Unknown(_) => self.go_without(node),
             GuardCheck::Refused(refusal) => self.refuse(node, refusal),
             GuardCheck::Ask(motion) => self.ask_for_motion(node, motion),
             GuardCheck::Wait(_) => {}
@@ -124,7 +124,7 @@ impl Turn<'_> {
         self.run.missing.clear();
         let is_verifying = self.is_verifying(node);
         match self.look(node) {
-            GuardCheck::Unknown(refusal) => self.go_without(node, refusal),
+            GuardCheck::Unknown(_) => self.go_without(node),
             GuardCheck::Refused(refusal) => self.refuse(node, refusal),
             GuardCheck::Ask(motion) if is_verifying => self.start(node, motion.command),
             GuardCheck::Ask(motion) => self.ask_for_motion(node, motion),
@@ -133,11 +133,9 @@ impl Turn<'_> {
         }
     }
 
-    /// Nothing more will be known: a text says so, and anything else that is unknown refuses the step.
-    fn go_without(&mut self, node: NodeId, refusal: StartRefusal) {
-        if !matches!(refusal, StartRefusal::Argument) {
-            return self.refuse(node, refusal);
-        }
+    /// Nothing more will be known: a text says so, and behind a `wait` what was believed stands. Anything
+    /// else that is unknown refuses the step.
+    fn go_without(&mut self, node: NodeId) {
         self.run.missing.clear();
         let is_verifying = self.is_verifying(node);
         match self.look_at_all(node, true) {
@@ -153,8 +151,8 @@ impl Turn<'_> {
         self.look_at_all(node, false)
     }
 
-    /// Evaluates a call's guards and arguments; `vague` as in [`crate::belief::Evaluator`].
-    fn look_at_all(&mut self, node: NodeId, vague: bool) -> GuardCheck {
+    /// Evaluates a call's guards and arguments; `is_last` where nothing more will be known.
+    fn look_at_all(&mut self, node: NodeId, is_last: bool) -> GuardCheck {
         let plan = self.plan;
         let Some(call) = plan.call(node) else { return GuardCheck::Unknown(StartRefusal::Argument) };
         let (since, seen, attempt) = {
@@ -169,10 +167,14 @@ impl Turn<'_> {
             }
             let afresh = Freshness::Facts(since, seen);
             let mut truth = self.need(need, if self.run.is_undone { afresh } else { fresh });
-            let looks_afresh = attempt > 1 || self.run.looks_afresh || plan.is_in_reaction(node);
-            if truth == Truth::False && looks_afresh {
-                // A retry looks afresh: what refused it before may have changed. A reaction does so too, and
-                // what comes behind a wait: the world may have undone what a step made.
+            let looks_afresh = match truth {
+                // A retry looks afresh: what refused it before may have changed. A reaction does so too.
+                Truth::False => attempt > 1 || self.run.looks_afresh || plan.is_in_reaction(node),
+                // Behind a wait the world may have undone what a step made. Where nobody can tell, it stands.
+                Truth::True => self.run.looks_afresh && !is_last,
+                Truth::Unknown => false,
+            };
+            if looks_afresh {
                 truth = self.need(need, afresh);
             }
             let refusal = StartRefusal::Need(index as u32, need.failure, truth);
@@ -186,7 +188,7 @@ impl Turn<'_> {
             return unknown
                 .map_or_else(|| self.look_at_motion(node, call, command.clone()), GuardCheck::Unknown);
         }
-        let args: Option<Vec<Value>> = self.values(&call.args, fresh, vague);
+        let args: Option<Vec<Value>> = self.values(&call.args, fresh, is_last);
         match (unknown, args.and_then(|args| plan.command(call, args.into_iter().map(Some)))) {
             (Some(refusal), _) => GuardCheck::Unknown(refusal),
             (None, None) => GuardCheck::Unknown(StartRefusal::Argument),

@@ -3,11 +3,11 @@
 
 use super::Turn;
 use super::call::{GuardCheck, StartRefusal};
-use crate::belief::Freshness;
+use crate::belief::{CellId, Freshness, hand};
 use crate::effect::{Command, DeferredMotion, Effect, MotionVerdict, PlannedMotion, RunEnd};
 use crate::event::Verification;
 use crate::ids::CheckId;
-use crate::query::Truth;
+use crate::query::{Query, Truth};
 use crate::state::{MotionCheck, Phase};
 use crate::time::Time;
 use crate::trace::{EndCause, TraceEventKind};
@@ -138,7 +138,9 @@ impl Turn<'_> {
     /// Something was learned that a test may depend on.
     pub(super) fn decide_again(&mut self, node: NodeId) {
         let decision = self.decision(node, false);
-        if !decision.is_open() || !self.awaits(node) {
+        // A thing may drop while a test asks for it, also where something else decides the test.
+        let is_open = decision.is_open() || self.awaits_hand(node);
+        if !is_open || !self.awaits(node) {
             self.decided(node, decision);
         }
     }
@@ -302,17 +304,8 @@ impl Turn<'_> {
             return false;
         }
         let key = self.plan.node_key(node);
-        let asks = self.run.subscriptions.at_mut(key as usize);
-        asks.clear();
-        asks.extend_from_slice(&self.run.missing);
-        for id in asks {
-            self.run.asked.push((*id, node));
-            if let Some(cell) = self.run.beliefs.cell_mut(*id) {
-                cell.dependents.push(key);
-                cell.due += 1;
-                self.out.push(Effect::Observe { query: cell.query.clone() });
-            }
-        }
+        self.run.subscriptions.at_mut(key as usize).clear();
+        self.ask_for_missing(node);
         let within = Time::from_secs(self.plan.graph.observe_within_secs);
         self.run.timers.set(key, self.run.now.after(within));
         true
@@ -321,30 +314,47 @@ impl Turn<'_> {
     /// Asks for what `run.missing` holds beyond what was asked for before, within the same time. False where
     /// there is nothing to ask for.
     pub(super) fn ask_more(&mut self, node: NodeId) -> bool {
-        let key = self.plan.node_key(node);
-        let asks = self.run.subscriptions.at_mut(key as usize);
-        let known = asks.len();
-        if known == 0 {
-            return false;
+        let key = self.plan.node_key(node) as usize;
+        let known = self.run.subscriptions.at(key).len();
+        if known > 0 {
+            self.ask_for_missing(node);
         }
+        self.run.subscriptions.at(key).len() > known
+    }
+
+    fn ask_for_missing(&mut self, node: NodeId) {
+        let key = self.plan.node_key(node);
+        let is_test_of_hand = self.plan.graph.hands.contains(&node);
+        let asks = self.run.subscriptions.at_mut(key as usize);
         for id in &self.run.missing {
             if asks.contains(id) {
                 continue;
             }
             asks.push(*id);
             self.run.asked.push((*id, node));
-            if let Some(cell) = self.run.beliefs.cell_mut(*id) {
-                cell.dependents.push(key);
-                cell.due += 1;
-                self.out.push(Effect::Observe { query: cell.query.clone() });
+            let Some(cell) = self.run.beliefs.cell_mut(*id) else { continue };
+            cell.dependents.push(key);
+            cell.due += 1;
+            self.out.push(Effect::Observe { query: cell.query.clone() });
+            if is_test_of_hand
+                && let Query::Fact { fluent, .. } = &*cell.query
+                && hand(fluent, Truth::Unknown).is_some()
+                && !self.run.hands_asked.contains(id)
+            {
+                self.run.hands_asked.push(*id);
             }
         }
-        asks.len() > known
     }
 
     /// True if an answer is outstanding.
     pub(super) fn awaits(&self, node: NodeId) -> bool {
         self.run.asked.iter().any(|(_, asker)| *asker == node)
+    }
+
+    /// True if an answer of a test is outstanding that tells of a hand.
+    fn awaits_hand(&self, node: NodeId) -> bool {
+        let is_awaited = |id: &CellId| self.run.asked.contains(&(*id, node));
+        self.run.hands_asked.iter().any(is_awaited)
     }
 
     /// No longer waits for answers.

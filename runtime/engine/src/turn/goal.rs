@@ -367,6 +367,7 @@ impl Turn<'_> {
             (Some(Truth::Unknown), held) => held == Some(Truth::False),
             (Some(Truth::False) | None, _) => false,
         };
+        self.run.hands_asked.retain(|asked| *asked != id);
         // A reading that was taken afresh counts from now on, also where it reads the same.
         self.run.beliefs.note(id);
         let mut asked = std::mem::take(&mut self.run.asked);
@@ -381,8 +382,7 @@ impl Turn<'_> {
 
     /// Believed state of a hand by a fact that a test has asked for: true if it holds something.
     fn tested_hand(&self, id: CellId) -> Option<Truth> {
-        let tests = &self.plan.graph.hands;
-        let is_tested = self.run.asked.iter().any(|(cell, node)| *cell == id && tests.contains(node));
+        let is_tested = self.run.hands_asked.contains(&id);
         match self.run.beliefs.cell(id).filter(|_| is_tested).map(|cell| &*cell.query) {
             Some(Query::Fact { fluent, args }) => hand(fluent, self.run.beliefs.fact(fluent, args).0),
             Some(Query::Measure { .. } | Query::Field { .. }) | None => None,
