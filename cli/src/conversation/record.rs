@@ -129,6 +129,11 @@ impl DialogueRecorder for RunJournal {
         let Self { record, page, head, saved } = *self;
         // A simulator that runs before this one have changed cannot be opened again as it is.
         let saved = saved.filter(|saved| from == Time::ZERO || !matches!(saved, SavedDriver::Simulator(_)));
+        // A driver forgets its goals when a run begins, and then has another name.
+        let saved = saved.map(|saved| match driver.instance() {
+            Some(instance) => saved.with_instance(instance),
+            None => saved,
+        });
         let saved = saved.and_then(|saved| saved.to_json().ok()).unwrap_or_default();
         let head = JournalHead { from, driver: saved, ..head };
         let mut shown;

@@ -228,6 +228,10 @@ fn logged_driver(place: &Place) -> String {
          \x20       result = await super().perform(goal, **args)\n\
          \x20       log('ends', goal.number)\n\
          \x20       return result\n\
+         \x20   def begin_run(self, run):\n\
+         \x20       super().begin_run(run)\n\
+         \x20       with open('instance', 'w') as file:\n\
+         \x20           file.write(f'{{self._session.instance}}-{{self._session.forgets}}')\n\
          log('greets', 0)\n\
          port = int(sys.argv[1]) if sys.argv[1:] else None\n\
          motet.serve(Logged(types.SimpleNamespace(seconds=0.15, refuse=[], clock='wall')), port, 10.0)\n"
@@ -349,6 +353,8 @@ fn killed_host_of_a_driver_in_another_process_begins_nothing_twice_and_loses_not
             place.run(&format!("run --resume {folder} --driver {driver}")).check(0, &["out:: done"]);
             place.run(&format!("replay {folder}")).check(0, &["out:identical"]);
             once_each(&place.path(&folder));
+            let journal = std::fs::read_to_string(journal(&place.path(&folder))).unwrap();
+            assert!(journal.contains(&place.read("instance")), "the driver of the run is not the journal's");
             let log = log(&place);
             begins_once(&log);
             let count = |what: &str| log.iter().filter(|(_, told, _)| told == what).count();

@@ -62,6 +62,11 @@ pub trait Driver {
     fn base(&self) -> Option<[f64; 3]> {
         None
     }
+    /// Name that the driver gave itself when the run began, another one wherever it has forgotten goals.
+    /// `None` for a driver that ends with its host.
+    fn instance(&mut self) -> Option<String> {
+        self.inner()?.instance()
+    }
     /// Begins a run with an id of its own, of this graph where it is known; `now` is the host's time. Goals
     /// are counted anew: what still moves for an earlier run comes to a stop, and its goals and watches are
     /// forgotten. Returns the present time, not before `now`.
@@ -184,6 +189,10 @@ impl<D: Driver> Driver for Rc<RefCell<D>> {
 
     fn base(&self) -> Option<[f64; 3]> {
         self.borrow().base()
+    }
+
+    fn instance(&mut self) -> Option<String> {
+        self.borrow_mut().instance()
     }
 
     fn begin_run(&mut self, now: Time, run: &str, graph: Option<&Graph>) -> Time {

@@ -143,6 +143,15 @@ impl SavedDriver {
         Self::Process { address, instance: instance.to_owned(), guard, asks: false }
     }
 
+    /// The same with the name that the driver has given itself for the run.
+    #[must_use]
+    pub fn with_instance(mut self, name: String) -> Self {
+        if let Self::Process { instance, .. } = &mut self {
+            *instance = name;
+        }
+        self
+    }
+
     /// Project in which motions are checked during the run.
     #[must_use]
     pub fn project(&self) -> Option<&SavedProject> {

@@ -37,6 +37,10 @@ impl Driver for RemoteDriver {
         self.telemetry.base
     }
 
+    fn instance(&mut self) -> Option<String> {
+        Some(self.welcome.instance.clone())
+    }
+
     fn begin_run(&mut self, now: Time, run: &str, graph: Option<&Graph>) -> Time {
         let now = now.max(self.time.now());
         self.set_time(now);
