@@ -129,7 +129,11 @@ pub fn run(bench: &Bench, case: Case, seed: u64) -> Result<Trial, String> {
 /// The reason of [`run`].
 pub fn trials(bench: &Bench, wordings: &str, objects: Objects) -> Result<Vec<Trial>, String> {
     let mut cases = cases(wordings, objects);
-    cases.retain(|case| bench.asks_for(&[&case.robot, &case.scene, &case.request]));
+    cases.retain(|case| {
+        let failures = case.failures.iter().map(|kind| kind.name());
+        let words = [case.robot.as_str(), &case.scene, &case.request].into_iter().chain(failures);
+        bench.asks_for(&words.collect::<Vec<_>>())
+    });
     let seeded: Vec<_> = cases.into_iter().enumerate().step_by(bench.every.max(1)).collect();
     let shard = bench.workers.shard;
     let own =

@@ -22,6 +22,8 @@ ELSEWHERE = 0.08
 SLACK = 0.04
 # Thickness in m of the bottom of a container.
 BOTTOM = 0.01
+# Heights in m between two looks into a container.
+LAYER = 0.5
 
 
 class Beliefs:
@@ -146,6 +148,21 @@ class Beliefs:
                 return np.array([*position[:2], bottom]), quaternion
         return position, quaternion
 
+    def supposed(self, thing):
+        """Places to look for a thing that is known to be in or on something, but not where there: near the bottom of
+        the inside and higher up, or on the top."""
+        known = self.entities.get(thing, {})
+        support = known.get("in") or known.get("on")
+        at = self.world.model.body_of.get(support)
+        if at is None or "pose" in known:
+            return []
+        model, half = self.world.model, sight.half_height(self.entities[support].get("shape", {}))
+        up, heights = sight.half_height(known.get("shape", {})), [half]
+        if "in" in known:
+            at, heights = model.leaf_of(support), np.arange(BOTTOM - half, half - up, LAYER)
+        data = self.room()
+        return [data.xpos[at] + data.xmat[at].reshape(3, 3) @ np.array([0.0, 0.0, z + up]) for z in heights]
+
     def saw(self, entity, position, quaternion=None):
         """Notes where something is."""
         known = self.entities.get(entity)
@@ -256,9 +273,25 @@ class Beliefs:
         """Notes that a drawer or door is open or closed; None for what nobody knows."""
         known = self.entities.get(container)
         if known is not None and "travel" in known:
-            known.pop("open", None)
+            before = known.pop("open", None)
             if is_open is not None:
                 known["open"] = bool(is_open)
+            self.carried(container, before, known.get("open"))
+
+    def carried(self, drawer, before, is_open):
+        """Moves what lies in a drawer along with it. After a motion that failed, it is somewhere in there."""
+        slide, at = self.entities[drawer]["travel"].get("slide"), self.world.model.body_of.get(drawer)
+        if slide is None or at is None or before is is_open:
+            return
+        way = self.world.data.xmat[at].reshape(3, 3) @ np.array(slide["axis"]) * slide["distance"]
+        for known in self.entities.values():
+            if known.get("in") != drawer or "pose" not in known:
+                continue
+            if before is None or is_open is None:
+                del known["pose"]
+            else:
+                place = np.array(known["pose"]["xyz"]) + (way if is_open else -way)
+                known["pose"]["xyz"] = [round(float(part), 5) for part in place]
 
     def locked(self, container):
         """Notes that a drawer or a door does not open."""

@@ -16,6 +16,7 @@ from . import sight
 from .beliefs import ELSEWHERE, turned
 from .camera import Camera, NoGraphics
 from .chance import Chance
+from .detector import belongs
 from .world import OPENED
 
 # Distance in m within which a detection may be a known thing, and the part of its size by which it may differ.
@@ -195,9 +196,14 @@ class Eyes:
         if self.oracle or container not in model.doors:
             return self.world.is_open(container) if self.oracle else None
         joint, opened, _ = model.doors[container]
-        leaf = [at for at in range(model.mj.ngeom) if model.mj.geom_bodyid[at] == model.body_of[container + "/door"]]
+        at_body = {body: np.flatnonzero(model.mj.geom_bodyid == model.body_of[body])
+                   for body in (container, container + "/door")}
+        leaf, data, counts, room = at_body[container + "/door"], mujoco.MjData(model.mj), [], self.beliefs.room()
         points = [one.points()[::GRID, ::GRID][one.depth[::GRID, ::GRID] > 0.0] for one in self.pictures]
-        data, counts, room = mujoco.MjData(model.mj), [], self.beliefs.room()
+        # What is seen of the frame and of the robot itself with what it holds is no leaf.
+        own = np.flatnonzero(np.isin(np.array(model.geom_owner, dtype=str), ["robot", *self.beliefs.in_hand()]))
+        for solid in self.solids([*at_body[container], *own]):
+            points = [one[~belongs(one, solid)] for one in points]
         for step in range(STEPS + 1):
             data.qpos[:], data.mocap_pos[:] = room.qpos, room.mocap_pos
             data.qpos[joint] = opened * step / STEPS
@@ -335,13 +341,14 @@ class Eyes:
             raise NoGraphics("the detector ended")
         return json.loads(line)["detections"]
 
-    def solids(self):
-        """Known furniture with its drawers and doors and people as they are believed to be, and the robot itself."""
+    def solids(self, geoms=None):
+        """Known furniture with its drawers and doors and people as they are believed to be, and the robot itself; or
+        some geoms."""
         model, data = self.world.model, self.beliefs.room()
         solids = []
-        for at in range(model.mj.ngeom):
+        for at in range(model.mj.ngeom) if geoms is None else geoms:
             owner = model.geom_owner[at]
-            if owner is None or owner in model.free:
+            if owner is None or geoms is None and owner in model.free:
                 continue
             kind, size = model.mj.geom_type[at], model.mj.geom_size[at]
             solid = {"xyz": data.geom_xpos[at].tolist(), "rotation": data.geom_xmat[at].reshape(3, 3).tolist()}

@@ -14,6 +14,12 @@ BEGINS = 0.05
 BLOCKED = 0.12
 # Distances in m that the base draws back where the arm has no room to fold.
 RETREATS = (0.15, 0.3, 0.45)
+# Distances of the base from what something hides, as shares of the way from its radius to its reach.
+AROUND = (0.9, 0.6)
+# Heights in m by which the hand may go back above the way that it came.
+RAISES = (0.06, 0.12, 0.18, 0.24)
+# Distances in m that base and arm keep on a way on which they touch nothing.
+TOUCHES = {"base": 0.0, "arm": 0.0}
 # Seconds that pass for each place of which a plan is tried, so that no answer to the host takes long.
 THINKS = 0.1
 
@@ -117,15 +123,16 @@ class Mover:
             target[at] = self.goal[at]
         yield from self.follow(self.path([self.goal.copy(), target], share))
 
-    def motion(self, motion, query, fail="unreachable"):
-        """Path of the motion of a command, from where the robot stands; else of one of its own."""
+    def motion(self, motion, query, fail="unreachable", scene=None):
+        """Path of the motion of a command, from where the robot stands; else of one of its own, in the room as it is
+        believed to be unless another is given."""
         witness = motion.witness
         if witness is not None:
             points = self.points(witness)
             if np.abs(points[0] - self.goal)[self.arm_and_base()].max() <= BEGINS:
                 return self.timed(points, witness["path"], motion.speed)
         follows = "its witness begins elsewhere" if witness is not None else "it has no witness"
-        witness, why = self.planner.plan(self.beliefs.now(), query)
+        witness, why = self.planner.plan(scene or self.beliefs.now(), query)
         if witness is None:
             raise Failed(KINDS.get(why[0], fail), why[1])
         self.planned.append("%s, %s" % (query, follows))
@@ -163,23 +170,35 @@ class Mover:
         for stroke in strokes:
             for point in stroke.points:
                 point[list(self.world.model.grips)] = start[list(self.world.model.grips)]
-        # The last approach again, higher: the thing still stands low.
+        # The last approach again, higher: the thing still stands low, or in something with a rim.
         points = strokes[0].points
-        lifted = self.raised(points[1], 0.06) if len(points) > 2 or len(strokes) > 1 else None
         points[0] = start
         after = points[2] if len(points) > 2 else strokes[1].points[1] if len(strokes) > 1 else None
-        if lifted is not None and self.is_way(start, lifted, after):
+        heights = (self.raised(points[1], height) for height in RAISES if after is not None)
+        lifted = next((one for one in heights if one is not None and self.is_way(start, one, after)), None)
+        if lifted is not None:
             first = self.path([start, lifted, after, *points[3:]], motion.speed).strokes
             strokes[: 1 if len(points) > 2 else 2] = first
+        watch = self.keeps(thing, "fell on the way back")
+        points = [point for stroke in strokes for point in stroke.points]
+        free = len(points)
+        while thing is not None and not self.is_way(*points[:free], keeps=TOUCHES):
+            free -= 1
+        if free < len(points):
+            # From here on, what the hand holds would touch something on the way that the hand came.
+            yield from self.follow(self.path(points[:free], motion.speed), watch=watch)
+            if (yield from self.home_again(begun, motion, watch)):
+                return
+            strokes = self.path(points[free - 1 :], motion.speed).strokes
         last, leaves = strokes[-1].points[-1], self.leaves(motion, begun)
         if leaves is not None and np.abs(leaves - last)[self.arm_and_base()].max() > 1e-3:
             strokes.extend(self.path([last, leaves], motion.speed).strokes)
-        yield from self.follow(Path(strokes), watch=self.keeps(thing, "fell on the way back"))
+        yield from self.follow(Path(strokes), watch=watch)
         yield from self.pause(0.2)
 
-    def is_way(self, *points):
+    def is_way(self, *points, keeps=None):
         """True if nothing is too near on the straight ways between targets that is not so at the first of them."""
-        clearance = Clearance(self.world, self.beliefs)
+        clearance = Clearance(self.world, self.beliefs, keeps)
         shares = np.linspace(0.1, 1.0, 8)
         ways = [one + (other - one) * share for one, other in zip(points, points[1:]) for share in shares]
         return clearance.is_free(points[0], points[0], ways)
@@ -225,25 +244,54 @@ class Mover:
             target[at] = self.goal[at]
         return target
 
-    def home_again(self, begun, motion):
+    def home_again(self, begun, motion, watch=None):
         """Brings the robot to where the command leaves it, by a way of its own: away from what it opened or closed,
-        the arm home, and the base to its place."""
+        the arm home, and the base to its place. True if the arm is there or at home."""
         leaves = self.leaves(motion, begun)
         if motion.leaves is not None and np.abs(self.goal - leaves)[self.arm_and_base()].max() <= 0.02:
-            return
+            return True
         witness, _ = self.planner.plan(self.beliefs.now(), "posture(home)")
         if witness is None and self.world.model.drives:
             witness = yield from self.retreat("posture(home)")
         if witness is None:
-            return
-        yield from self.follow(self.own(witness, motion))
+            return False
+        yield from self.follow(self.own(witness, motion), watch=watch)
         self.observer.own.posture = "home"
         if motion.leaves is not None and self.world.model.drives:
             x, y, yaw = leaves[:3]
             query = "stand_at(pose(%.4f m, %.4f m, %.5f rad))" % (x, y, yaw)
             witness, _ = self.planner.plan(self.beliefs.now(), query)
             if witness is not None:
-                yield from self.follow(self.own(witness, motion))
+                yield from self.follow(self.own(witness, motion), watch=watch)
+        return True
+
+    def supposing(self, one, place):
+        """The room as it is believed to be, with an entity at a place; without a place as it is."""
+        scene = self.beliefs.now()
+        for known in scene["entities"]:
+            if known["id"] == one and place is not None:
+                known["pose"] = {"xyz": [float(part) for part in place], "rpy": [0.0, 0.0, 0.0]}
+        return scene
+
+    def around(self, query, one, place, spot):
+        """Moves the base to where a motion is feasible, at a place near a spot and within its reach, the nearest
+        directions first. `place` is where an entity is supposed to be. True if there is such a place."""
+        model, (x, y, yaw) = self.world.model, self.world.base()
+        towards = float(np.arctan2(y - spot[1], x - spot[0]))
+        for share in AROUND if model.drives else ():
+            for turn in (0.0, 0.5, -0.5, 1.0, -1.0, 1.5, -1.5, 2.0, -2.0):
+                angle, scene = towards + turn, self.supposing(one, place)
+                far = model.card[0] + share * (model.card[1] - model.card[0])
+                stand = (spot[0] + far * np.cos(angle), spot[1] + far * np.sin(angle), near_turn(angle + np.pi, yaw))
+                scene["robot"]["base"] = [float(part) for part in stand]
+                yield from self.pause(THINKS)
+                if self.planner.ask(scene, query)[0] is None:
+                    continue
+                witness, _ = self.planner.plan(self.beliefs.now(), "stand_at(pose(%.4f m, %.4f m, %.5f rad))" % stand)
+                if witness is not None:
+                    yield from self.follow(self.own(witness, Motion(None)))
+                    return True
+        return False
 
     def retreat(self, query):
         """Moves the base a little to where it has room for a motion: against the way that the hand points, or to a

@@ -16,6 +16,8 @@ from .world import OPENED
 NEAR_GRASP = 0.05
 # Distance in m that a handle moves in the hand at least where its drawer or door is not locked.
 GIVES = 0.04
+# Distance in m of the base from a thing up to which it looks for a better place to see it.
+ABOUT_HERE = 2.0
 # Distances in m, beyond that of a drive to a person, from which the hand may hold something out.
 OFFERS = (0.0, 0.15, -0.1)
 
@@ -342,10 +344,25 @@ class Tasks(Mover):
 
     # Looking.
 
-    def look(self, one, motion):
-        """Turns the camera to an entity. Fails with `not_found` where it does not come into view."""
-        yield from self.follow(self.motion(motion, "look(%s)" % quoted(one), "not_found"))
+    def look(self, one, motion, place=None):
+        """Turns the camera to an entity, or to where it may be. What is hidden from here is looked at from another
+        place. Fails with `not_found` where it does not come into view."""
+        query = "look(%s)" % quoted(one)
+        try:
+            path = self.motion(motion, query, "not_found", self.supposing(one, place))
+        except Failed:
+            spot = self.beliefs.entities[one].get("pose", {}).get("xyz") if place is None else place
+            if spot is None or not self.may_show(one, spot) or not (yield from self.around(query, one, place, spot)):
+                raise
+            path = self.motion(Motion(None), query, "not_found", self.supposing(one, place))
+        yield from self.follow(path)
         yield from self.pause(0.1)
+
+    def may_show(self, one, spot):
+        """True if another place near might show an entity: it is about here, and not shut in."""
+        supports = self.room.supports(one) if one in self.beliefs.things() else []
+        is_shut = any(self.room.is_open(support) is False for support in supports)
+        return not is_shut and bool(np.hypot(*(self.world.base()[:2] - np.array(spot[:2]))) <= ABOUT_HERE)
 
     def seen(self, wanted, motion):
         """Ids of the entities, of some, that the camera sees now or after it has turned to where they should be."""
@@ -356,12 +373,17 @@ class Tasks(Mover):
         for one in wanted:
             if one in found or one not in self.beliefs.entities:
                 continue
-            try:
-                yield from self.look(one, motion if len(wanted) == 1 else Motion(None))
-            except Failed:
-                continue
-            found |= self.eyes.known(wanted)
-            if one not in found and one in self.beliefs.things() and one not in self.beliefs.in_hand():
+            has_looked = False
+            for place in self.beliefs.supposed(one) or [None]:
+                try:
+                    yield from self.look(one, motion if len(wanted) == 1 else Motion(None), place)
+                except Failed:
+                    continue
+                has_looked = True
+                found |= self.eyes.known(wanted)
+                if one in found:
+                    break
+            if has_looked and one not in found and one in self.beliefs.things() and one not in self.beliefs.in_hand():
                 # It is not where it should be: anything alike in view is it.
                 self.beliefs.forget(one)
                 self.eyes.at = -1.0

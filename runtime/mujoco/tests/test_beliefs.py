@@ -67,6 +67,22 @@ def test_a_thing_elsewhere_than_told_is_found_once_the_host_says_where(drive, ro
     assert host.holds("holding", "mug_1")
 
 
+@pytest.mark.parametrize("thing, container, height",
+                         [("mug_1", "fridge_1", 0.06), ("coke", "cupboard_1", 0.071), ("mug_1", "drawer_1", 0.61)])
+def test_a_thing_that_the_host_tells_to_be_in_a_container_is_found_in_it(drive, room, motet, thing, container, height):
+    """The opened door hides it from where the robot stands then, and must not be taken for a closed one from nearby.
+    On the way out of the drawer it must not meet the rim."""
+    x, y, _ = load("hsr", "kitchen", motet).entities[container]["pose"]["xyz"]
+    real = room(**{thing: {"pose": {"xyz": [x, y, height], "rpy": [0.0, 0.0, 0.0]}, "on": None, "in": container}})
+    host = drive("hsr", real, "--told", room())
+    host.call("told", thing={"id": thing, "support": {"in": container}})
+    host.carry_out("go", to=entity(container))
+    assert host.carry_out("open", what=entity(container)) == {"success": None}
+    assert host.carry_out("inspect", what=entity(thing)) == {"success": None}
+    assert host.holds("open", container)
+    assert host.carry_out("pick", object=entity(thing)) == {"success": None}
+
+
 def test_any_program_can_be_the_detector(drive, tmp_path):
     program = tmp_path / "detector.py"
     program.write_text('''
