@@ -11,8 +11,8 @@
 //!   `--pictures` gives the planner a picture of the camera with every request.
 //! - `tasks [FILE…] [--trials N]` plays the tasks of the papers, with the same flags. `--jobs N` plays so
 //!   many trials at once, `--only WORD` those with a word in their name, robot, request or kinds of failure
-//!   (`WORD+WORD` with all of them), `dialogue --every N` each Nth case, and `dialogue --objects unseen` those with things that
-//!   no word list knows.
+//!   (`WORD+WORD` with all of them), `dialogue --every N` each Nth case, and `dialogue --objects unseen`
+//!   those with things that no word list knows.
 //! - `world` takes the number of runs in a world that can fail (`harsh`, unless `--world` names another),
 //!   with `--driver`, `--jobs` and `--only` as above. It exits with 0 if no run ends as done without its
 //!   goal.
