@@ -207,7 +207,7 @@ class Robot:
         refused, values = self._guards(look, seen, args, contract)
         if (refused is not None or None in values.values()) and missing:
             await self._observe(missing)
-            refused, values = self._guards(self._look(since, []), seen, args, contract)
+            refused, values = self._guards(self._look(since, []), seen, args, contract, is_last=True)
         if refused is not None:
             raise Failed(refused)
         if None in values.values():
@@ -219,7 +219,7 @@ class Robot:
         return values
 
     def _guards(
-        self, look: Look, seen: int | None, args: dict[str, Any], contract: Contract
+        self, look: Look, seen: int | None, args: dict[str, Any], contract: Contract, is_last: bool = False
     ) -> tuple[str | None, dict[str, Any]]:
         """The failure of the first guard that is not known to hold, and the values of the arguments."""
         unknown = None
@@ -227,8 +227,10 @@ class Robot:
             if need.proven and not self._is_unproven:
                 continue
             truth = self._need(need, look)
-            if truth is False and seen is not None:
-                # A retry looks afresh, and so does what comes behind a wait: it may have changed.
+            # A retry looks afresh, and so does what comes behind a wait, also at what is believed: it may have changed.
+            # Where nobody can tell, what was believed stands.
+            is_doubted = truth is False or (truth is True and self._looks_afresh and not is_last)
+            if seen is not None and is_doubted:
                 truth = self._need(need, replace(look, seen=seen))
             if truth is False:
                 raise Failed(need.failure)

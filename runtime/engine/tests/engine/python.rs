@@ -41,7 +41,6 @@ fn single(steps: &[StepSketch]) -> Vec<StepSketch> {
         StepSketch::If(condition, then, other) => {
             StepSketch::If(condition.clone(), group(then), other.as_ref().map(|steps| group(steps)))
         }
-        StepSketch::Wait(condition, _) => StepSketch::If(condition.clone(), Vec::new(), None),
         StepSketch::Finally(body, cleanup) => StepSketch::Finally(group(body), group(cleanup)),
         StepSketch::Try(body, handlers) => {
             let handlers = handlers.iter().map(|(on, steps)| (on.clone(), group(steps)));
@@ -50,7 +49,7 @@ fn single(steps: &[StepSketch]) -> Vec<StepSketch> {
         StepSketch::Repeat(times, steps, until) => StepSketch::Repeat(*times, group(steps), until.clone()),
         StepSketch::Each(list, most, steps) => StepSketch::Each(list.clone(), *most, group(steps)),
         StepSketch::Parallel(branches) => StepSketch::Sequence(group(&branches.concat())),
-        StepSketch::Delay(_) | StepSketch::Let(_) | StepSketch::End(_) => step.clone(),
+        StepSketch::Wait(..) | StepSketch::Delay(_) | StepSketch::Let(_) | StepSketch::End(_) => step.clone(),
     };
     steps.iter().map(one).collect()
 }
@@ -116,8 +115,8 @@ fn played(seed: u64, graph: &Graph) -> Vec<String> {
                     live.remove(&goal);
                     reports.push_back(DriverEvent::Ended { goal, outcome: Outcome::Interrupted });
                 }
-                Effect::Observe { query } => asked.push((*query).clone()),
-                Effect::Report(_) => {}
+                Effect::Observe { query } | Effect::Watch { query } => asked.push((*query).clone()),
+                Effect::Unwatch { .. } | Effect::Report(_) => {}
                 Effect::Finished(end) => {
                     log.push(match *end {
                         RunEnd::Done { .. } => "done".to_owned(),
