@@ -56,7 +56,10 @@ impl CollisionChecker<'_, '_> {
     ) -> Certificate {
         let Some(cover) = CellModel::new(self, hand, allowed) else { return Certificate::Open };
         let ([of_hand, others], pair_groups) = (cover.groups(), cover.pair_groups());
-        let root = |cell| CellNode { cell, groups: Rc::clone(&others), pair_groups: Rc::clone(&pair_groups) };
+        let root = |cell| {
+            let (groups, pair_groups) = (Rc::clone(&others), Rc::clone(&pair_groups));
+            CellNode { cell, groups, pair_groups, split_gain: None }
+        };
         let roots: Rc<[CellNode]> = cover.family.cells().into_iter().map(root).collect();
         let patches = manifold.patches().into_iter();
         let open =

@@ -20,7 +20,7 @@ const WIDER: f64 = 2.0;
 /// Minimum ratio between the side chosen for splitting and the longest side.
 const SLIM: f64 = 8.0;
 /// Motion in m below which a cell is sampled for a free configuration.
-const SMALL: f64 = 0.05;
+const SMALL: f64 = 0.1;
 /// Number of recent contact pairs that are checked first.
 const KNOWN: usize = 8;
 /// Motion in m below which a cell is given up.
@@ -32,12 +32,15 @@ pub(super) struct CellNode {
     pub(super) cell: IkCell,
     pub(super) groups: Rc<[ContactGroup]>,
     pub(super) pair_groups: Rc<[PairGroup]>,
+    /// Gain of a split, where a constraint is near.
+    pub(super) split_gain: Option<SplitGain>,
 }
 
 impl CellNode {
     /// Halves across a parameter.
-    pub(super) fn halves(&self, across: usize) -> [Self; 2] {
-        self.cell.halves(across).map(|cell| Self { cell, ..self.clone() })
+    fn halves(self, across: usize) -> [Self; 2] {
+        let split_gain = self.split_gain.map(|split_gain| split_gain.halved(across));
+        self.cell.halves(across).map(|cell| Self { cell, split_gain, ..self.clone() })
     }
 }
 
@@ -116,7 +119,11 @@ impl<'c, 'a, 'r, 'w> BranchAndBound<'c, 'a, 'r, 'w> {
                 (ArmFamily::Lift(_) | ArmFamily::Parallel(..) | ArmFamily::Seven(..), _) => {
                     match self.left(&tips, hold.as_ref(), WIDER * size, &nodes) {
                         Remaining::Nodes(left) if left.is_empty() => return PatchOutcome::Done,
-                        Remaining::Nodes(left) => left.into(),
+                        Remaining::Nodes(mut left) => {
+                            let gains = left.iter_mut().filter_map(|node| node.split_gain.as_mut());
+                            gains.for_each(SplitGain::halve_patch);
+                            left.into()
+                        }
                         Remaining::Free(configuration) => match hold {
                             Some(hold) => return PatchOutcome::Free(Box::new(hold), configuration),
                             None => return PatchOutcome::Unclear,
@@ -172,39 +179,31 @@ impl<'c, 'a, 'r, 'w> BranchAndBound<'c, 'a, 'r, 'w> {
         enough: f64,
         all: &[CellNode],
     ) -> Remaining {
-        let mut open: Vec<(CellNode, Option<SplitGain>)> =
-            all.iter().map(|node| (node.clone(), None)).collect();
-        let mut left = Vec::new();
-        while let Some((node, split_gain)) = open.pop() {
+        let (mut open, mut left) = (all.to_vec(), Vec::new());
+        while let Some(node) = open.pop() {
             if self.is_spent() {
                 return Remaining::Unclear;
             }
-            match self.seen(tips, hold, enough, node, split_gain) {
+            match self.seen(tips, hold, enough, node) {
                 CellOutcome::Closed => {}
                 CellOutcome::Free(configuration) => return Remaining::Free(configuration),
                 CellOutcome::Unclear => return Remaining::Unclear,
-                CellOutcome::Open(node, split_gain) => {
-                    match self.across(&node.cell, split_gain.as_ref(), enough) {
-                        Some(across) => {
-                            let split_gain = split_gain.map(|split_gain| split_gain.halved(across));
-                            open.extend(node.halves(across).map(|half| (half, split_gain)));
-                        }
-                        None => left.push(node),
-                    }
-                }
+                CellOutcome::Open(node) => match self.across(&node, enough) {
+                    Some(across) => open.extend(node.halves(across)),
+                    None => left.push(node),
+                },
             }
         }
         Remaining::Nodes(left)
     }
 
-    /// Outcome of a cell, given the split cause of its parent.
+    /// Outcome of a cell, which has the split gain of its parent.
     fn seen(
         &mut self,
         tips: &PoseSet,
         hold: Option<&GraspCandidate>,
         enough: f64,
-        CellNode { cell, groups, pair_groups }: CellNode,
-        split_gain: Option<SplitGain>,
+        CellNode { cell, groups, pair_groups, split_gain }: CellNode,
     ) -> CellOutcome {
         let enclosure = match self.cover.family.over(tips, &cell) {
             IntervalSolution::Empty => return CellOutcome::Closed,
@@ -212,6 +211,7 @@ impl<'c, 'a, 'r, 'w> BranchAndBound<'c, 'a, 'r, 'w> {
             IntervalSolution::Enclosed(enclosure) => enclosure,
         };
         self.cover.place(&enclosure, &mut self.placing);
+        let split_gain = split_gain.filter(SplitGain::is_fresh);
         // A part that is about to close needs no other check.
         if let Some(split_gain) = split_gain
             && self.cover.closes(&mut self.placing, &enclosure, split_gain.split_cause, TRUSTED)
@@ -222,7 +222,7 @@ impl<'c, 'a, 'r, 'w> BranchAndBound<'c, 'a, 'r, 'w> {
                 }
                 // Joint limits and the arm's length are exact up to rounding.
                 SplitCause::Pair(_) | SplitCause::Joint(_) | SplitCause::Short => {
-                    CellOutcome::Open(CellNode { cell, groups, pair_groups }, Some(split_gain))
+                    CellOutcome::Open(CellNode { cell, groups, pair_groups, split_gain: Some(split_gain) })
                 }
             };
         }
@@ -244,14 +244,14 @@ impl<'c, 'a, 'r, 'w> BranchAndBound<'c, 'a, 'r, 'w> {
             let (split_cause, share) = cover.split_cause(placing, &enclosure, &groups, &pair_groups)?;
             Some(cover.split_gain(aside, tips, &cell, split_cause, share))
         });
-        CellOutcome::Open(CellNode { cell, groups, pair_groups }, split_gain)
+        CellOutcome::Open(CellNode { cell, groups, pair_groups, split_gain })
     }
 
     /// Parameter across which to split a cell; `None` to split the patch.
-    fn across(&self, cell: &IkCell, split_gain: Option<&SplitGain>, enough: f64) -> Option<usize> {
-        let sizes = self.sizes(cell);
+    fn across(&self, node: &CellNode, enough: f64) -> Option<usize> {
+        let sizes = self.sizes(&node.cell);
         let (size, wide) = widest(&sizes);
-        let Some(split_gain) = split_gain.filter(|split_gain| split_gain.tells()) else {
+        let Some(split_gain) = node.split_gain.as_ref().filter(|split_gain| split_gain.tells()) else {
             return (size >= enough.max(LEAST)).then_some(wide);
         };
         let (off, across) = widest(&split_gain.cell);
@@ -311,7 +311,7 @@ enum CellOutcome {
     Free(Configuration),
     Unclear,
     /// Undecided, with the remaining bodies and the gain of a split.
-    Open(CellNode, Option<SplitGain>),
+    Open(CellNode),
 }
 
 /// Remaining cells of a patch.

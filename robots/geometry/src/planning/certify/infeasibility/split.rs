@@ -4,6 +4,8 @@
 //!
 //! A constraint is near where it closes the cell for a share of the motion: at a half, one split is enough.
 //! Constraints that are nowhere near are no causes, since at their boundary no cell is small enough.
+//!
+//! A gain is an estimate: it orders splits and delays checks, and closes no cell. So halves may inherit it.
 
 use super::cover::{CellModel, CellPlacement, ContactGroup};
 use super::relative::{BodyPair, PairGroup};
@@ -15,6 +17,8 @@ const SHARES: [f64; 4] = [0.0625, 0.125, 0.25, 0.5];
 pub(super) const TRUSTED: f64 = 0.25;
 /// Excess beyond a limit that is more than rounding, in rad or m.
 const BEYOND: f64 = 1e-4;
+/// Greatest number of splits after which a gain is not measured again.
+const FRESH: u8 = 3;
 /// Drift below which a cause is exact, in rad or m.
 const STILL: f64 = 1e-3;
 
@@ -39,6 +43,8 @@ pub(super) struct SplitGain {
     pub(super) cell: [f64; 3],
     /// Drift by the patch alone, in rad or m.
     pub(super) patch: f64,
+    /// Number of splits since it was measured.
+    splits: u8,
 }
 
 impl SplitGain {
@@ -47,10 +53,22 @@ impl SplitGain {
         self.cell.iter().fold(self.patch, |most, off| most.max(*off)) > STILL
     }
 
+    /// Checks whether its values are near those that a measurement would give.
+    pub(super) fn is_fresh(&self) -> bool {
+        self.splits <= FRESH
+    }
+
     /// Gain in a half of the cell.
     pub(super) fn halved(mut self, across: usize) -> Self {
         self.cell.get_mut(across).into_iter().for_each(|off| *off *= 0.5);
+        self.splits += 1;
         self
+    }
+
+    /// Makes it that of a half of the patch.
+    pub(super) fn halve_patch(&mut self) {
+        self.patch *= 0.5;
+        self.splits += 1;
     }
 }
 
@@ -123,6 +141,7 @@ impl CellModel<'_, '_, '_> {
             share,
             cell: [0.0; 3],
             patch: self.off(placing, tips, &none, split_cause),
+            splits: 0,
         };
         for ((slot, half), at) in split_gain.cell.iter_mut().zip(cell.half).zip(0..) {
             if half > 0.0 {
