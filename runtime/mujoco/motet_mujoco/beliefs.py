@@ -149,17 +149,17 @@ class Beliefs:
         return position, quaternion
 
     def supposed(self, thing):
-        """Places to look for a thing that is known to be in or on something, but not where there: near the bottom of
-        the inside and higher up, or on the top."""
+        """Places to look for a thing that is known to be in or on something, but not where there."""
         known = self.entities.get(thing, {})
-        support = known.get("in") or known.get("on")
-        at = self.world.model.body_of.get(support)
-        if at is None or "pose" in known:
-            return []
+        support, up = known.get("in") or known.get("on"), sight.half_height(known.get("shape", {}))
+        return [] if "pose" in known or support not in self.world.model.body_of else self.places(support, "in" in known, up)
+
+    def places(self, support, is_inside, up=0.0):
+        """Places of a thing of half a height in or on something: near the bottom of the inside and higher up, or on the
+        top."""
         model, half = self.world.model, sight.half_height(self.entities[support].get("shape", {}))
-        up, heights = sight.half_height(known.get("shape", {})), [half]
-        if "in" in known:
-            at, heights = model.leaf_of(support), np.arange(BOTTOM - half, half - up, LAYER)
+        at, heights = (model.leaf_of(support), np.arange(BOTTOM - half, half - up, LAYER)) if is_inside else (
+            model.body_of[support], [half])
         data = self.room()
         return [data.xpos[at] + data.xmat[at].reshape(3, 3) @ np.array([0.0, 0.0, z + up]) for z in heights]
 
@@ -280,10 +280,9 @@ class Beliefs:
 
     def carried(self, drawer, before, is_open):
         """Moves what lies in a drawer along with it. After a motion that failed, it is somewhere in there."""
-        slide, at = self.entities[drawer]["travel"].get("slide"), self.world.model.body_of.get(drawer)
-        if slide is None or at is None or before is is_open:
+        way = self.world.model.drawn(drawer)
+        if way is None or before is is_open:
             return
-        way = self.world.data.xmat[at].reshape(3, 3) @ np.array(slide["axis"]) * slide["distance"]
         for known in self.entities.values():
             if known.get("in") != drawer or "pose" not in known:
                 continue

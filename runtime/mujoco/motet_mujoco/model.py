@@ -126,6 +126,17 @@ class Model:
         body = self.body_of[container]
         return self.body_of.get(container + "/door", body) if is_drawer else body
 
+    def drawn(self, container):
+        """Offset in m in the map by which an open drawer is off its place; None of what is no drawer."""
+        entity = self.entities[container]
+        slide = entity.get("travel", {}).get("slide")
+        if slide is None or "pose" not in entity:
+            return None
+        turn, off = np.zeros(4), np.zeros(3)
+        mujoco.mju_euler2Quat(turn, np.array(entity["pose"].get("rpy", (0.0, 0.0, 0.0)), dtype=float), "XYZ")
+        mujoco.mju_rotVecQuat(off, np.array(slide["axis"]) * slide["distance"], turn)
+        return off
+
     def posture(self, called):
         """Targets of all actuators in a posture, or None."""
         at = mujoco.mj_name2id(self.mj, mujoco.mjtObj.mjOBJ_KEY, "posture/" + name(called))

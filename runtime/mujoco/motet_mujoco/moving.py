@@ -14,12 +14,17 @@ BEGINS = 0.05
 BLOCKED = 0.12
 # Distances in m that the base draws back where the arm has no room to fold.
 RETREATS = (0.15, 0.3, 0.45)
-# Distances of the base from what something hides, as shares of the way from its radius to its reach.
-AROUND = (0.9, 0.6)
+# Distances in m, beyond the reach of the robot, of the base from what something hides: most often it is in or on
+# something larger.
+AROUND = (0.2, 0.1, -0.05)
 # Heights in m by which the hand may go back above the way that it came.
 RAISES = (0.06, 0.12, 0.18, 0.24)
 # Distances in m that base and arm keep on a way on which they touch nothing.
 TOUCHES = {"base": 0.0, "arm": 0.0}
+# Id of what may be in a container.
+INSIDE = "inside"
+# Seconds before its deadline by which a command is to be done.
+SPARE = 1.0
 # Seconds that pass for each place of which a plan is tried, so that no answer to the host takes long.
 THINKS = 0.1
 
@@ -266,30 +271,45 @@ class Mover:
         return True
 
     def supposing(self, one, place):
-        """The room as it is believed to be, with an entity at a place; without a place as it is."""
+        """The room as it is believed to be; with an entity at a place, or with a small thing there under an id that
+        nothing has. What lies in something hides neither."""
         scene = self.beliefs.now()
-        for known in scene["entities"]:
-            if known["id"] == one and place is not None:
-                known["pose"] = {"xyz": [float(part) for part in place], "rpy": [0.0, 0.0, 0.0]}
+        if place is not None:
+            own = self.beliefs.entities.get(one, {"id": one, "kind": "Object", "shape": {"sphere": {"radius": 0.02}}})
+            others = [known for known in scene["entities"] if known["id"] != one]
+            for known in others:
+                if known.get("in"):
+                    known.pop("pose", None)
+            pose = {"xyz": [float(part) for part in place], "rpy": [0.0, 0.0, 0.0]}
+            scene["entities"] = [*others, {**own, "pose": pose}]
         return scene
 
-    def around(self, query, one, place, spot):
-        """Moves the base to where a motion is feasible, at a place near a spot and within its reach, the nearest
-        directions first. `place` is where an entity is supposed to be. True if there is such a place."""
+    def face(self, container, motion):
+        """Drives to where the inside of an open container shows and is within reach, if it is not so here. True if the
+        robot stands there then."""
+        place, query = self.beliefs.places(container, True, 0.05)[0], "look(%s)" % INSIDE
+        if self.observer.serves(container) and self.planner.ask(self.supposing(INSIDE, place), query)[0] is not None:
+            return True
+        came = yield from self.around(query, INSIDE, place, place, motion, motion.until - SPARE)
+        return came and self.observer.serves(container)
+
+    def around(self, query, one, place, spot, motion, until=np.inf):
+        """Moves the base to where a motion is feasible, at a place near a spot, the nearest directions first. `place` is
+        where an entity is supposed to be. True if there is such a place to which it comes by a time."""
         model, (x, y, yaw) = self.world.model, self.world.base()
         towards = float(np.arctan2(y - spot[1], x - spot[0]))
-        for share in AROUND if model.drives else ():
+        for off in AROUND if model.drives else ():
             for turn in (0.0, 0.5, -0.5, 1.0, -1.0, 1.5, -1.5, 2.0, -2.0):
-                angle, scene = towards + turn, self.supposing(one, place)
-                far = model.card[0] + share * (model.card[1] - model.card[0])
+                far, angle, scene = model.card[1] + off, towards + turn, self.supposing(one, place)
                 stand = (spot[0] + far * np.cos(angle), spot[1] + far * np.sin(angle), near_turn(angle + np.pi, yaw))
                 scene["robot"]["base"] = [float(part) for part in stand]
                 yield from self.pause(THINKS)
                 if self.planner.ask(scene, query)[0] is None:
                     continue
                 witness, _ = self.planner.plan(self.beliefs.now(), "stand_at(pose(%.4f m, %.4f m, %.5f rad))" % stand)
-                if witness is not None:
-                    yield from self.follow(self.own(witness, Motion(None)))
+                path = None if witness is None else self.own(witness, motion)
+                if path is not None and self.world.now + path.end <= until:
+                    yield from self.follow(path)
                     return True
         return False
 
@@ -318,11 +338,13 @@ class Mover:
 class Motion:
     """What a command says about its motion: a witness with times, the manner, and where it leaves the robot."""
 
-    def __init__(self, command):
+    def __init__(self, command, now=0.0):
         command = command or {}
         motions = command.get("motions") or ([command["motion"]] if command.get("motion") else [])
         self.witness = motions[0].get("witness") if motions else None
         self.leaves = command.get("leaves")
+        # The time in s of the world by which it has to be done.
+        self.until = now + float(command.get("deadline_secs") or np.inf)
         manner = command.get("manner") or {}
         self.speed = float(manner.get("speed", 1.0))
         # Times of a path as a multiple of the shortest.

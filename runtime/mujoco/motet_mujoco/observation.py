@@ -154,8 +154,9 @@ class Observer:
     def radius(self):
         return self.model.card[0]
 
-    def gap(self, one, outline=True):
-        """Distance in the plane from the axis of the base to an entity, or to its outline."""
+    def gap(self, one, outline=True, off=None):
+        """Distance in the plane from the axis of the base to an entity, or to its outline; off from where it is by an
+        offset."""
         entity = self.entities[one]
         pose = self.room.pose(one)
         if pose is not None:
@@ -164,6 +165,7 @@ class Observer:
             position, quaternion = np.array(entity["pose"]["xyz"]), None
         else:
             return None
+        position = position if off is None else position + off
         off = self.world.base()[:2] - position[:2]
         if not outline:
             return float(np.hypot(*off))
@@ -186,7 +188,9 @@ class Observer:
         elif kind == "Person":
             gap, most = self.gap(one), reach + PERSON_REACH
         elif kind in ("Surface", "Container"):
-            gap, most = self.gap(one), reach
+            gap, most, off = self.gap(one), reach, self.model.drawn(one)
+            if gap is not None and off is not None and self.room.is_open(one):
+                gap = min(gap, self.gap(one, off=off))
         else:
             if any(self.serves(other) for other in self.room.supports(one) if other != one):
                 return True

@@ -40,18 +40,30 @@ class Tasks(Mover):
         run = getattr(self, "do_" + command["primitive"], None)
         if run is None:
             return None
-        return run({name: value for name, value in command["args"]}, Motion(command))
+        return run({name: value for name, value in command["args"]}, Motion(command, self.world.now))
 
     # Moving.
 
     def do_go(self, args, motion):
         to = entity(args["to"])
-        path, held = self.motion(motion, "go_to(%s)" % quoted(to)), self.room.held()
+        about = self.about(to)
+        if motion.witness is None and self.room.is_open(about) and (yield from self.face(about, motion)):
+            self.observer.own.visited.update((to, about))
+            return
+        path, held = self.motion(motion, "go_to(%s)" % quoted(about)), self.room.held()
         if motion.witness is None and held and to in self.world.model.people:
             path = yield from self.offering(path, held[0], to, motion)
         yield from self.drive(path, to)
         self.observer.own.visited.add(to)
         self.observer.own.visited.update(self.room.supports(to) if to in self.beliefs.things() else [])
+
+    def about(self, to):
+        """What to drive to for an entity: for a thing whose place is not known, what it is in or on, or was before it
+        was missed there."""
+        known = self.beliefs.entities.get(to, {})
+        if to not in self.beliefs.things() or self.room.pose(to) is not None and "in" not in known:
+            return to
+        return known.get("in") or known.get("on") or min(self.beliefs.gone.get(to, ()), default=to)
 
     def offering(self, path, thing, person, motion):
         """The path to a place from which the hand can hold a thing out to a person: its own, or else one around the
@@ -315,6 +327,8 @@ class Tasks(Mover):
         self.glance()
         is_open = self.room.is_open(what)
         if is_open is opens:
+            if opens and motion.leaves is None:
+                yield from self.face(what, motion)
             return
         if self.beliefs.oracle and world.is_locked(what) or not self.beliefs.oracle and opens and far < GIVES:
             self.beliefs.locked(what)
@@ -352,7 +366,7 @@ class Tasks(Mover):
             path = self.motion(motion, query, "not_found", self.supposing(one, place))
         except Failed:
             spot = self.beliefs.entities[one].get("pose", {}).get("xyz") if place is None else place
-            if spot is None or not self.may_show(one, spot) or not (yield from self.around(query, one, place, spot)):
+            if spot is None or not self.may_show(one, spot) or not (yield from self.around(query, one, place, spot, motion)):
                 raise
             path = self.motion(Motion(None), query, "not_found", self.supposing(one, place))
         yield from self.follow(path)
@@ -424,7 +438,7 @@ class Tasks(Mover):
                         raise failure
                     continue
             found = yield from self.seen(self.objects(what), Motion(None))
-            found = [one for one in found if self.observer.serves(one)]
+            found = [one for one in found if to in self.room.supports(one) or self.observer.serves(one)]
             if len(found) > 1:
                 raise Failed("ambiguous", "%d things here are called %s" % (len(found), what))
             if found:

@@ -78,9 +78,20 @@ def test_a_thing_that_the_host_tells_to_be_in_a_container_is_found_in_it(drive, 
     host.call("told", thing={"id": thing, "support": {"in": container}})
     host.carry_out("go", to=entity(container))
     assert host.carry_out("open", what=entity(container)) == {"success": None}
+    assert host.holds("at", "robot", container), "it stands before it again"
     assert host.carry_out("inspect", what=entity(thing)) == {"success": None}
     assert host.holds("open", container)
     assert host.carry_out("pick", object=entity(thing)) == {"success": None}
+
+
+def test_a_drive_to_a_thing_that_is_missed_leads_to_where_it_was(drive, room):
+    real = room(mug_1={"pose": {"xyz": [-0.5, -2.2, 0.06], "rpy": [0.0, 0.0, 0.0]}, "on": None, "in": "fridge_1"})
+    host = drive("hsr", real, "--told", room())
+    host.carry_out("go", to=entity("kitchen_table"))
+    assert host.carry_out("inspect", what=entity("mug_1"))["failure"]["kind"] == "not_found"
+    host.carry_out("go", to=entity("user"))
+    assert host.carry_out("go", to=entity("mug_1")) == {"success": None}
+    assert host.holds("at", "robot", "kitchen_table")
 
 
 def test_any_program_can_be_the_detector(drive, tmp_path):
