@@ -152,7 +152,8 @@ class Beliefs:
         """Places to look for a thing that is known to be in or on something, but not where there."""
         known = self.entities.get(thing, {})
         support, up = known.get("in") or known.get("on"), sight.half_height(known.get("shape", {}))
-        return [] if "pose" in known or support not in self.world.model.body_of else self.places(support, "in" in known, up)
+        is_sought = "pose" not in known and support in self.world.model.body_of
+        return self.places(support, "in" in known, up) if is_sought else []
 
     def places(self, support, is_inside, up=0.0):
         """Places of a thing of half a height in or on something: near the bottom of the inside and higher up, or on the

@@ -366,7 +366,9 @@ class Tasks(Mover):
             path = self.motion(motion, query, "not_found", self.supposing(one, place))
         except Failed:
             spot = self.beliefs.entities[one].get("pose", {}).get("xyz") if place is None else place
-            if spot is None or not self.may_show(one, spot) or not (yield from self.around(query, one, place, spot, motion)):
+            if spot is None or not self.may_show(one, spot):
+                raise
+            if not (yield from self.around(query, one, place, spot, motion)):
                 raise
             path = self.motion(Motion(None), query, "not_found", self.supposing(one, place))
         yield from self.follow(path)
