@@ -7,8 +7,7 @@ use motet::page::entries::EntryTracker;
 use motet_graph::Graph;
 use motet_runtime::journal::{JournalEntry, JournalHead};
 use motet_runtime::{
-    Answer, CameraImage, Detection, Effect, Engine, Event, Heard, Moved, Observer, PreparedSwap, Query,
-    RetiredGraph, RunControl, SwapRefusal, Time, ToldThing, Verifier,
+    CameraImage, Effect, Event, Moved, Observer, RetiredGraph, RunControl, SwapRefusal, Time,
 };
 
 use super::live::SharedPage;
@@ -35,6 +34,10 @@ impl<'a> PageObserver<'a> {
 }
 
 impl Observer for PageObserver<'_> {
+    fn inner(&mut self) -> Option<&mut dyn Observer> {
+        Some(self.inner)
+    }
+
     fn event(&mut self, now: Time, event: &Event) {
         self.entries.event(event);
         self.inner.event(now, event);
@@ -45,10 +48,6 @@ impl Observer for PageObserver<'_> {
             self.page.borrow_mut().entry(seq, &entry);
         }
         self.inner.commit(now, effects)
-    }
-
-    fn effect(&mut self, now: Time, effect: &Effect) {
-        self.inner.effect(now, effect);
     }
 
     fn reached(&mut self, now: Time) -> RunControl {
@@ -82,29 +81,9 @@ impl Observer for PageObserver<'_> {
         self.inner.moved(moved);
     }
 
-    fn detected(&mut self, now: Time, seen: &[Detection], engine: &Engine) -> Vec<(Query, Answer)> {
-        self.inner.detected(now, seen, engine)
-    }
-
-    fn tell(&mut self) -> Option<ToldThing> {
-        self.inner.tell()
-    }
-
-    fn heard(&mut self, now: Time, heard: &Heard) {
-        self.inner.heard(now, heard);
-    }
-
-    fn swap(&mut self, now: Time, engine: &Engine) -> Option<PreparedSwap> {
-        self.inner.swap(now, engine)
-    }
-
     fn swapped(&mut self, now: Time, graph: &Arc<Graph>, result: Result<RetiredGraph, SwapRefusal>) {
         self.entries.swapped(graph, result.is_ok());
         self.inner.swapped(now, graph, result);
-    }
-
-    fn verifier(&mut self) -> Option<&mut dyn Verifier> {
-        self.inner.verifier()
     }
 
     fn at_least_every(&self) -> Time {

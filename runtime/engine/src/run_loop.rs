@@ -30,6 +30,12 @@ const HELD_EVERY: Time = Time::from_nanos(100_000_000);
 
 /// Looks on while a graph runs, and may pace and stop it. Every method does nothing by default.
 pub trait Observer {
+    /// Observer behind this one, to which this one passes on what it does not treat itself: effects,
+    /// pictures, detections, words, swaps and the verifier. `None` for an observer that stands alone.
+    fn inner(&mut self) -> Option<&mut dyn Observer> {
+        None
+    }
+
     /// An event is about to be handled.
     fn event(&mut self, _now: Time, _event: &Event) {}
 
@@ -41,7 +47,11 @@ pub trait Observer {
     }
 
     /// An effect is about to be carried out.
-    fn effect(&mut self, _now: Time, _effect: &Effect) {}
+    fn effect(&mut self, now: Time, effect: &Effect) {
+        if let Some(inner) = self.inner() {
+            inner.effect(now, effect);
+        }
+    }
 
     /// The run has reached a time; called before anything takes time, and after. To pace it against a clock,
     /// wait here until it is that late.
@@ -64,27 +74,35 @@ pub trait Observer {
     }
 
     /// Takes in the picture that it wanted; `None` if the driver has none.
-    fn pictured(&mut self, _image: Option<CameraImage>) {}
+    fn pictured(&mut self, image: Option<CameraImage>) {
+        if let Some(inner) = self.inner() {
+            inner.pictured(image);
+        }
+    }
 
     /// The driver saw something new. Returns the facts that follow from it, which the engine then takes for
     /// observed ([`Event::Noticed`]).
-    fn detected(&mut self, _now: Time, _seen: &[Detection], _engine: &Engine) -> Vec<(Query, Answer)> {
-        Vec::new()
+    fn detected(&mut self, now: Time, seen: &[Detection], engine: &Engine) -> Vec<(Query, Answer)> {
+        self.inner().map(|inner| inner.detected(now, seen, engine)).unwrap_or_default()
     }
 
     /// Next thing of which the driver is to be told. Asked before each event, until there is none.
     fn tell(&mut self) -> Option<ToldThing> {
-        None
+        self.inner()?.tell()
     }
 
     /// A person said something that nobody had asked for.
-    fn heard(&mut self, _now: Time, _heard: &Heard) {}
+    fn heard(&mut self, now: Time, heard: &Heard) {
+        if let Some(inner) = self.inner() {
+            inner.heard(now, heard);
+        }
+    }
 
     /// A policy to take over from the one that runs. Asked after each event, so at least as often as
     /// [`Observer::at_least_every`] says, and at each glance. Of
     /// several the newest should be given: one that was never given was never there.
-    fn swap(&mut self, _now: Time, _engine: &Engine) -> Option<PreparedSwap> {
-        None
+    fn swap(&mut self, now: Time, engine: &Engine) -> Option<PreparedSwap> {
+        self.inner()?.swap(now, engine)
     }
 
     /// Called with the result of a swap, before its effects are carried out.
@@ -93,7 +111,7 @@ pub trait Observer {
     /// The verifier for motions that the compiler deferred, if there is one. The engine asks only if enabled
     /// by [`crate::EngineSettings::verify_within`].
     fn verifier(&mut self) -> Option<&mut dyn Verifier> {
-        None
+        self.inner()?.verifier()
     }
 
     /// The longest span without a call of [`Observer::reached`], for a live display or to notice an

@@ -4,10 +4,7 @@ use super::motion::MotionFile;
 use super::{JournalError, JournalWriter};
 use motet_graph::Graph;
 use motet_runtime::journal::must_be_durable;
-use motet_runtime::{
-    Answer, CameraImage, Detection, Effect, Engine, Event, Heard, Moved, Observer, PreparedSwap, Query,
-    RetiredGraph, RunControl, SwapRefusal, Time, ToldThing, Verifier,
-};
+use motet_runtime::{Effect, Event, Moved, Observer, RetiredGraph, RunControl, SwapRefusal, Time};
 use std::sync::Arc;
 
 /// An observer that writes a journal and then lets another one look on. Where the journal cannot be written,
@@ -70,6 +67,10 @@ impl<'a> RunRecorder<'a> {
 }
 
 impl Observer for RunRecorder<'_> {
+    fn inner(&mut self) -> Option<&mut dyn Observer> {
+        Some(self.inner)
+    }
+
     fn event(&mut self, now: Time, event: &Event) {
         self.cause = Some(Cause::Event(event.clone()));
         self.inner.event(now, event);
@@ -81,10 +82,6 @@ impl Observer for RunRecorder<'_> {
         }
         let inner = self.inner.commit(now, effects);
         if self.error.is_some() { RunControl::Stop } else { inner }
-    }
-
-    fn effect(&mut self, now: Time, effect: &Effect) {
-        self.inner.effect(now, effect);
     }
 
     fn reached(&mut self, now: Time) -> RunControl {
@@ -103,39 +100,15 @@ impl Observer for RunRecorder<'_> {
         self.inner.wants_picture()
     }
 
-    fn pictured(&mut self, image: Option<CameraImage>) {
-        self.inner.pictured(image);
-    }
-
     fn moved(&mut self, moved: &Moved) {
         self.motion.iter_mut().for_each(|motion| motion.write(moved));
         self.inner.moved(moved);
-    }
-
-    fn detected(&mut self, now: Time, seen: &[Detection], engine: &Engine) -> Vec<(Query, Answer)> {
-        self.inner.detected(now, seen, engine)
-    }
-
-    fn tell(&mut self) -> Option<ToldThing> {
-        self.inner.tell()
-    }
-
-    fn heard(&mut self, now: Time, heard: &Heard) {
-        self.inner.heard(now, heard);
-    }
-
-    fn swap(&mut self, now: Time, engine: &Engine) -> Option<PreparedSwap> {
-        self.inner.swap(now, engine)
     }
 
     fn swapped(&mut self, now: Time, graph: &Arc<Graph>, result: Result<RetiredGraph, SwapRefusal>) {
         let took_over = result.is_ok();
         self.cause = Some(if took_over { Cause::Swap(Arc::clone(graph)) } else { Cause::RefusedSwap });
         self.inner.swapped(now, graph, result);
-    }
-
-    fn verifier(&mut self) -> Option<&mut dyn Verifier> {
-        self.inner.verifier()
     }
 
     fn at_least_every(&self) -> Time {
