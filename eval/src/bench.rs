@@ -19,7 +19,7 @@ use motet_host::remote::{DriverAddress, DriverTimeouts, RemoteDriver};
 use motet_planner::dialogue::{Conversation, DialogueObserver, RunRecorder};
 use motet_robots::builtin;
 use motet_robots::card::{CameraMount, Robot};
-use motet_robots::scene::{Scene, write};
+use motet_robots::scene::{Placement, Scene, write};
 use motet_runtime::journal::JournalHead;
 use motet_runtime::{Answer, Driver, Engine, Event, Observer, Pattern, Query, RunEnd, StartState, Time, run};
 use motet_sim::{Faults, Profile, Sim, SimOptions};
@@ -28,7 +28,6 @@ use crate::Workers;
 use crate::actions::{ActionFaults, ActionLedger};
 use crate::outcome::StepFailures;
 use crate::planners::PlannerKind;
-use crate::tasks::half_height;
 
 /// Interpreter of the physics driver.
 const PYTHON: &str = "python3";
@@ -36,9 +35,6 @@ const PYTHON: &str = "python3";
 /// plays many trials is slow.
 const GREETING: Duration = Duration::from_secs(120);
 const STEP: Duration = Duration::from_secs(300);
-/// Distance in m between things that lie in a container, and of the least of them from its lower end.
-const ASIDE: f64 = 0.08;
-const BOTTOM: f64 = 0.02;
 /// Number of folders that this process made.
 static FOLDERS: AtomicU64 = AtomicU64::new(0);
 
@@ -145,7 +141,7 @@ impl Bench {
             fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
             Ok::<_, String>(path.display().to_string())
         };
-        let (scene, told) = (file("scene.json", write(&laid(real)))?, file("told.json", write(told))?);
+        let (scene, told) = (file("scene.json", write(&laid(robot, real)))?, file("told.json", write(told))?);
         let faults = serde_json::to_string(&faults).map_err(|error| error.to_string())?;
         let faults = file("faults.json", faults)?;
         let (seed, motet) = (seed.to_string(), motet_program());
@@ -183,17 +179,14 @@ fn shared<T>(of: T) -> Rc<RefCell<T>> {
     Rc::new(RefCell::new(of))
 }
 
-/// A room in which everything that lies in something has a place on its bottom: physics has no thing without
-/// one.
-fn laid(room: &Scene) -> Scene {
-    let mut laid = room.clone();
-    let nowhere = laid.entities.values_mut().filter(|entity| entity.pose.is_none());
-    for (entity, aside) in nowhere.zip([0.0, 1.0, -1.0].into_iter().cycle()) {
-        let container = entity.inside.as_ref().and_then(|inside| room.entities.get(inside));
-        let Some((container, mut pose)) = container.and_then(|one| Some((one, one.pose?))) else { continue };
-        pose.xyz[1] += aside * ASIDE;
-        pose.xyz[2] += half_height(entity) - half_height(container) + BOTTOM;
-        entity.pose = Some(pose);
+/// A room in which everything that is on or in something has a place there, as in the simulated world:
+/// physics has no thing without one.
+fn laid(robot: &Robot, room: &Scene) -> Scene {
+    let (sim, mut laid) = (Sim::new(robot, room, SimOptions::default()), room.clone());
+    for entity in laid.entities.values_mut().filter(|entity| entity.pose.is_none()) {
+        if entity.on.is_some() || entity.inside.is_some() {
+            entity.pose = sim.position(&entity.id).map(|xyz| Placement { xyz, rpy: [0.0; 3] });
+        }
     }
     laid
 }
@@ -394,4 +387,26 @@ pub fn action_line<'f>(faults: impl Iterator<Item = &'f ActionFaults>) -> String
     }
     let [dropped, doubled, orphaned] = sums;
     format!("actions by the journals: {dropped} dropped, {doubled} doubled, {orphaned} orphaned")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::laid;
+    use crate::setup;
+
+    /// Checks the height at which a thing lies that is only said to be on or in something.
+    fn check(relation: &str, support: &str, height: f64) {
+        let mut room = setup::scene("kitchen");
+        let mug = room.entities.get_mut("mug_1").unwrap();
+        (mug.on, mug.inside, mug.pose) = (None, None, None);
+        *(if relation == "on" { &mut mug.on } else { &mut mug.inside }) = Some(support.into());
+        let place = laid(&setup::robot("hsr"), &room).entities["mug_1"].pose.map(|pose| pose.xyz[2]);
+        assert!(place.is_some_and(|z| (z - height).abs() < 1e-6), "{relation} {support}: {place:?}");
+    }
+
+    #[test]
+    fn laid_things_have_a_place() {
+        check("on", "counter", 0.95);
+        check("in", "fridge_1", 0.06);
+    }
 }

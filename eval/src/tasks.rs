@@ -269,7 +269,7 @@ fn put(scene: &mut Scene, place: &str) -> Result<(), String> {
 }
 
 /// Half of the height of an entity as it stands, in m.
-pub(crate) fn half_height(entity: &scene::Entity) -> f64 {
+fn half_height(entity: &scene::Entity) -> f64 {
     match &entity.shape {
         Some(scene::EntityShape::Box([_, _, z])) => z / 2.0,
         Some(scene::EntityShape::Cylinder { height, .. }) => height / 2.0,

@@ -62,14 +62,7 @@ const TABLE: &[Entry] = &[
     row("M0904", "unknown_object", Place::Step),
     of("M0903", &["search"], ""),
     row("M0903", "ambiguous_ref", Place::Step),
-    Entry {
-        code: "M0106",
-        primitives: &[],
-        subject: None,
-        key: "repeat",
-        class: "infinite_retry",
-        place: Place::Step,
-    },
+    Entry { key: "repeat", ..row("M0106", "infinite_retry", Place::Step) },
     row("M0301", "arg_type", Place::Step),
     row("M0307", "arg_type", Place::Step),
     row("M0310", "out_of_range", Place::Step),
@@ -112,14 +105,7 @@ const TABLE: &[Entry] = &[
     row("M0601", "unreachable", Place::Step),
     row("M0902", "dead_code", Place::Behind),
     // The final state: a goal that is missed says more than what is left in the hand.
-    Entry {
-        code: "M0503",
-        primitives: &[],
-        subject: Some(("open", false)),
-        key: "",
-        class: "missing_close",
-        place: Place::End,
-    },
+    Entry { subject: Some(("open", false)), ..row("M0503", "missing_close", Place::End) },
     row("M0503", "goal_not_reached", Place::End),
     row("M0906", "ends_holding", Place::End),
     // Intent that the contract does not ask for.
