@@ -438,6 +438,8 @@ impl RemoteDriver {
                     events.push(DriverEvent::Acknowledged { goal });
                     self.say_again(now, goal, open);
                 }
+                // The driver reported its end while it was asked for the status.
+                Some(GoalStatus::Ended(_)) if !self.goals.is_live(goal) => {}
                 Some(GoalStatus::Ended(outcome)) => {
                     self.goals.ended(goal);
                     let outcome = self.named(outcome.clone());
