@@ -429,6 +429,10 @@ impl RemoteDriver {
         let is_same = self.welcome().instance == instance;
         let mut events = Vec::new();
         for (&goal, open) in &ledger.goals {
+            if !self.goals.is_live(goal) {
+                // The driver reported its end while it was asked for the status.
+                continue;
+            }
             let just_started = ledger
                 .uncertain
                 .iter()
@@ -438,8 +442,6 @@ impl RemoteDriver {
                     events.push(DriverEvent::Acknowledged { goal });
                     self.say_again(now, goal, open);
                 }
-                // The driver reported its end while it was asked for the status.
-                Some(GoalStatus::Ended(_)) if !self.goals.is_live(goal) => {}
                 Some(GoalStatus::Ended(outcome)) => {
                     self.goals.ended(goal);
                     let outcome = self.named(outcome.clone());
