@@ -11,6 +11,7 @@ import mujoco
 import numpy as np
 
 from . import sight
+from .model import turned
 from .planner import rpy
 from .world import inside
 
@@ -341,13 +342,6 @@ def relative(frame, position, quaternion):
     mujoco.mju_mat2Quat(inverse, np.ascontiguousarray(rotation.T).ravel())
     mujoco.mju_mulQuat(turn, inverse, quaternion)
     return rotation.T @ (position - place), turn
-
-
-def turned(pose):
-    """Quaternion w, x, y, z of a pose of a scene."""
-    quaternion = np.zeros(4)
-    mujoco.mju_euler2Quat(quaternion, np.array(pose.get("rpy", (0.0, 0.0, 0.0)), dtype=float), "XYZ")
-    return quaternion
 
 
 def limits_of(model):

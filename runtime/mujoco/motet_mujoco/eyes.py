@@ -13,10 +13,11 @@ import mujoco
 import numpy as np
 
 from . import sight
-from .beliefs import ELSEWHERE, turned
+from .beliefs import ELSEWHERE
 from .camera import Camera, NoGraphics
 from .chance import Chance
 from .detector import belongs
+from .model import turned
 from .world import OPENED
 
 # Distance in m within which a detection may be a known thing, and the part of its size by which it may differ.

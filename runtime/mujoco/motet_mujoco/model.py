@@ -20,6 +20,13 @@ class ModelError(Exception):
     """The model of a robot in a scene cannot be made; the text is for people."""
 
 
+def turned(pose):
+    """Quaternion w, x, y, z of a pose of a scene."""
+    quaternion = np.zeros(4)
+    mujoco.mju_euler2Quat(quaternion, np.array(pose.get("rpy", (0.0, 0.0, 0.0)), dtype=float), "XYZ")
+    return quaternion
+
+
 def find_motet(path=None):
     """Path of the command `motet`: the one given, the one in $MOTET, or the one in $PATH."""
     found = path or os.environ.get("MOTET") or shutil.which("motet")
@@ -132,9 +139,8 @@ class Model:
         slide = entity.get("travel", {}).get("slide")
         if slide is None or "pose" not in entity:
             return None
-        turn, off = np.zeros(4), np.zeros(3)
-        mujoco.mju_euler2Quat(turn, np.array(entity["pose"].get("rpy", (0.0, 0.0, 0.0)), dtype=float), "XYZ")
-        mujoco.mju_rotVecQuat(off, np.array(slide["axis"]) * slide["distance"], turn)
+        off = np.zeros(3)
+        mujoco.mju_rotVecQuat(off, np.array(slide["axis"]) * slide["distance"], turned(entity["pose"]))
         return off
 
     def posture(self, called):

@@ -7,6 +7,7 @@ import numpy as np
 
 from .clearance import Clearance
 from .motion import Path, frame_at, gentle, near_turn, timed, witnessed
+from .planner import stand_at
 
 # Differences in m or rad up to which the robot stands at the beginning of a path.
 BEGINS = 0.05
@@ -263,9 +264,7 @@ class Mover:
         yield from self.follow(self.own(witness, motion), watch=watch)
         self.observer.own.posture = "home"
         if motion.leaves is not None and self.world.model.drives:
-            x, y, yaw = leaves[:3]
-            query = "stand_at(pose(%.4f m, %.4f m, %.5f rad))" % (x, y, yaw)
-            witness, _ = self.planner.plan(self.beliefs.now(), query)
+            witness, _ = self.planner.plan(self.beliefs.now(), stand_at(*leaves[:3]))
             if witness is not None:
                 yield from self.follow(self.own(witness, motion), watch=watch)
         return True
@@ -306,7 +305,7 @@ class Mover:
                 yield from self.pause(THINKS)
                 if self.planner.ask(scene, query)[0] is None:
                     continue
-                witness, _ = self.planner.plan(self.beliefs.now(), "stand_at(pose(%.4f m, %.4f m, %.5f rad))" % stand)
+                witness, _ = self.planner.plan(self.beliefs.now(), stand_at(*stand))
                 path = None if witness is None else self.own(witness, motion)
                 if path is not None and self.world.now + path.end <= until:
                     yield from self.follow(path)

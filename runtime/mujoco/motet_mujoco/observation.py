@@ -154,9 +154,8 @@ class Observer:
     def radius(self):
         return self.model.card[0]
 
-    def gap(self, one, outline=True, off=None):
-        """Distance in the plane from the axis of the base to an entity, or to its outline; off from where it is by an
-        offset."""
+    def gap(self, one, outline=True, shift=0.0):
+        """Distance in the plane from the axis of the base to an entity, or to its outline, where it stands or shifted."""
         entity = self.entities[one]
         pose = self.room.pose(one)
         if pose is not None:
@@ -165,8 +164,7 @@ class Observer:
             position, quaternion = np.array(entity["pose"]["xyz"]), None
         else:
             return None
-        position = position if off is None else position + off
-        off = self.world.base()[:2] - position[:2]
+        off = self.world.base()[:2] - (position + shift)[:2]
         if not outline:
             return float(np.hypot(*off))
         shape = entity.get("shape", {})
@@ -190,7 +188,7 @@ class Observer:
         elif kind in ("Surface", "Container"):
             gap, most, off = self.gap(one), reach, self.model.drawn(one)
             if gap is not None and off is not None and self.room.is_open(one):
-                gap = min(gap, self.gap(one, off=off))
+                gap = min(gap, self.gap(one, shift=off))
         else:
             if any(self.serves(other) for other in self.room.supports(one) if other != one):
                 return True

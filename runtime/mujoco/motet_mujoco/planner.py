@@ -59,6 +59,11 @@ def rpy(quaternion):
     return [roll, pitch, yaw]
 
 
+def stand_at(x, y, yaw):
+    """Query for a way of the base to a place, in m and rad in the map."""
+    return "stand_at(pose(%.4f m, %.4f m, %.5f rad))" % (x, y, yaw)
+
+
 def quoted(entity):
     """An id as the language writes it."""
     return entity if entity.isidentifier() and entity.isascii() else "`%s`" % entity

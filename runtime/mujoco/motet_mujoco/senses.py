@@ -5,7 +5,7 @@ It answers the questions that `World` answers about itself. None means that the 
 
 import numpy as np
 
-from .beliefs import turned
+from .model import turned
 from .sight import is_visible
 
 # Ticks for which the fingers have to be closed on nothing before the hand counts as empty.

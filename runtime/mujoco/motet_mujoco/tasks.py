@@ -9,7 +9,7 @@ from .camera import NoGraphics
 from .motion import near_turn, phases
 from .moving import THINKS, Failed, Motion, Mover
 from .observation import AT_PLACE
-from .planner import quoted
+from .planner import quoted, stand_at
 from .world import OPENED
 
 # Distance in m from a thing up to which a given point counts as being at it.
@@ -85,8 +85,7 @@ class Tasks(Mover):
                 continue
             if at == 0:
                 return path
-            place = "stand_at(pose(%.4f m, %.4f m, %.5f rad))" % (px, py, yaw)
-            witness, _ = self.planner.plan(self.beliefs.now(), place)
+            witness, _ = self.planner.plan(self.beliefs.now(), stand_at(px, py, yaw))
             if witness is not None:
                 return self.own(witness, motion)
         return path
@@ -109,7 +108,7 @@ class Tasks(Mover):
         pose = args["to"]["pose"]
         x, y, _ = pose["xyz"]
         yaw = yaw_of(pose["quaternion"])
-        path = self.motion(motion, "stand_at(pose(%.4f m, %.4f m, %.5f rad))" % (x, y, yaw))
+        path = self.motion(motion, stand_at(x, y, yaw))
         yield from self.drive(path, None)
 
     def do_turn(self, args, motion):
