@@ -332,6 +332,8 @@ pub(crate) struct OrphanGoal {
     pub(crate) revision: u32,
     /// Its step in that graph.
     pub(crate) node: NodeId,
+    /// Number of the last observation or effect before it began.
+    pub(crate) seen: u64,
     pub(crate) plan: Arc<PreparedGraph>,
     /// Bindings at the time when that graph was replaced.
     pub(crate) bindings: Arc<Vec<Option<Value>>>,

@@ -298,16 +298,13 @@ fn soundness_a_driver_that_cannot_tell_takes_nothing_back() {
     assert!(found.iter().any(|request| request.contains("use")), "{found:?}");
 }
 
-/// A goal that a swap cancels may end in success, and change what the new policy was proven from.
-#[test]
-fn soundness_a_policy_that_takes_over_asks_what_the_goals_before_it_change() {
-    let of = |steps: &str| {
-        let find = "perception find(what: Text) -> Object\n    makes not f(result)\n    uses base\n";
-        compiled(&format!("{find}initially f(a)\npolicy p {{ {steps} }}"))
-    };
+/// Effects in a run of `find("x")`, where a policy of other steps takes over at once. Both goals then end in
+/// success, the first with `a` as its result.
+fn taken_over(declared: &str, later: &str) -> Vec<Effect> {
+    let of = |steps: &str| compiled(&format!("{declared}\npolicy p {{ {steps} }}"));
     let (mut engine, mut out) = (Engine::new(of("find(\"x\")"), &StartState::default()).unwrap(), Vec::new());
     engine.handle(Time::ZERO, Event::Begin, &mut out);
-    let later = PreparedSwap::new(of("pass() use(a)"), &engine.running()).unwrap();
+    let later = PreparedSwap::new(of(later), &engine.running()).unwrap();
     engine.swap(Time::ZERO, later, &mut out).unwrap();
     let goals = out.iter().filter_map(|effect| match effect {
         Effect::Start { goal, .. } => Some(*goal),
@@ -319,8 +316,22 @@ fn soundness_a_policy_that_takes_over_asks_what_the_goals_before_it_change() {
         let ended = DriverEvent::Ended { goal, outcome: Outcome::Success(value) };
         engine.handle(Time::from_secs(1.0), Event::Driver(ended), &mut out);
     }
-    let starts = out.iter().filter(|effect| matches!(effect, Effect::Start { .. }));
-    assert_eq!(starts.count(), 2, "{out:#?}");
+    out
+}
+
+/// A goal that a swap cancels may end in success, and change what the new policy was proven from.
+#[test]
+fn soundness_a_policy_that_takes_over_asks_what_the_goals_before_it_change() {
+    let find =
+        |contract: &str| format!("perception find(what: Text) -> Object\n    {contract}\n    uses base\n");
+    let made = format!("{}initially f(a)", find("makes not f(result)"));
+    let unsettled = format!("{}closed world", find("unsettles f(result)"));
+    for (declared, later) in [(made, "pass() use(a)"), (unsettled, "pass() avoid(a)")] {
+        let out = taken_over(&declared, later);
+        let starts = out.iter().filter(|effect| matches!(effect, Effect::Start { .. }));
+        assert_eq!(starts.count(), 2, "{declared}: {out:#?}");
+        assert!(out.iter().any(|effect| matches!(effect, Effect::Observe { .. })), "{declared}: {out:#?}");
+    }
 }
 
 /// Domain of needs and effects that are about each object.

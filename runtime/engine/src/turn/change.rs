@@ -4,9 +4,7 @@ use super::Turn;
 use crate::belief::{BeliefChange, Beliefs, Evaluator, Freshness, OfKind};
 use crate::query::{Pattern, Truth};
 use crate::time::Time;
-use motet_graph::{
-    BindingId, CallNode, Condition, Fact, FactArg, FluentId, Graph, KindId, Need, NodeId, Term, Value,
-};
+use motet_graph::{CallNode, Condition, Fact, FactArg, FluentId, Graph, KindId, Need, NodeId, Term, Value};
 use smol_str::SmolStr;
 
 /// An entry of `makes` or `unsettles`.
@@ -16,22 +14,6 @@ struct ContractEntry<'a> {
     value: Truth,
     when: Option<&'a Condition>,
     each: Option<KindId>,
-}
-
-/// True if a binding is an argument of a fact.
-fn is_about(fact: &Fact, binding: BindingId) -> bool {
-    fact.args.iter().any(|arg| matches!(arg, FactArg::Term(Term::Binding(id)) if *id == binding))
-}
-
-/// True if a condition may depend on a binding.
-fn depends_on(condition: &Condition, binding: BindingId) -> bool {
-    match condition {
-        Condition::Literal(_) => false,
-        Condition::Fact(fact) => is_about(fact, binding),
-        Condition::Compare(..) => true,
-        Condition::Not(inner) => depends_on(inner, binding),
-        Condition::All(parts) | Condition::AnyOf(parts) => parts.iter().any(|part| depends_on(part, binding)),
-    }
 }
 
 /// True if a call may change what a need of it asks.
@@ -69,32 +51,34 @@ pub(super) struct Contracts<'a> {
 }
 
 impl Turn<'_> {
-    /// Applies a call's declared effects. What it unsettles is unknown until its end: an observation of it in
-    /// between does not last.
+    /// Applies a call's declared effects.
     pub(super) fn make(&mut self, node: NodeId) {
         let plan = self.plan;
         if let Some(call) =
             plan.call(node).filter(|call| !call.effects.is_empty() || !call.unsettles.is_empty())
         {
-            let busy = self.busy(node, call);
-            let mut contracts = Contracts { busy, ..self.contracts_at(node) };
-            contracts.unsettle(call);
-            contracts.make(call);
+            let busy = self.busy(Some(node), call);
+            Contracts { busy, ..self.contracts_at(node) }.make(call);
         }
     }
 
-    /// Changes that the other calls which run may make, if conditions of a call are judged by them.
-    fn busy(&mut self, node: NodeId, call: &CallNode) -> Vec<BeliefChange> {
+    /// Changes that the other calls which run may make, if conditions of a call are judged by them: calls of
+    /// this policy, and of those before it.
+    pub(super) fn busy(&mut self, node: Option<NodeId>, call: &CallNode) -> Vec<BeliefChange> {
         let mut conditions = call.effects.iter().map(|effect| &effect.when);
         if conditions.all(Option::is_none) && call.unsettles.iter().all(|entry| entry.when.is_none()) {
             return Vec::new();
         }
         let plan = self.plan;
-        let others = self.run.goals.live().into_iter().map(|(_, other)| other).filter(|other| *other != node);
+        let others = self.run.goals.live().into_iter().map(|(_, other)| other);
+        let others: Vec<_> = others.filter(|other| Some(*other) != node).collect();
         let mut busy = Vec::new();
-        for other in others.collect::<Vec<_>>() {
-            if let Some(call) = plan.call(other) {
-                self.contracts().expand_all(call, &mut busy);
+        for call in others.into_iter().filter_map(|other| plan.call(other)) {
+            self.contracts().expand_all(call, &mut busy);
+        }
+        for orphan in self.run.orphans.clone() {
+            if let Some(call) = orphan.plan.call(orphan.node) {
+                self.contracts_of(&orphan).expand_all(call, &mut busy);
             }
         }
         busy
@@ -103,11 +87,6 @@ impl Turn<'_> {
     /// Applies what a call unsettles as soon as it starts.
     pub(super) fn unsettle(&mut self, call: &CallNode) {
         self.contracts().unsettle(call);
-    }
-
-    /// Applies what a call unsettles of what it has found, once that has its name.
-    pub(super) fn unsettle_found(&mut self, call: &CallNode, found: BindingId) {
-        self.contracts().unsettle_found(call, found);
     }
 
     /// After a failure or an interruption nothing is known of what a call makes or unsettles.
@@ -181,8 +160,10 @@ impl Turn<'_> {
 }
 
 impl Contracts<'_> {
-    /// Applies the effects of a successful call.
+    /// Applies the effects of a successful call. What it unsettles stays unknown until its end: an
+    /// observation in between does not count, and the result has a name only now.
     pub(super) fn make(&mut self, call: &CallNode) {
+        self.unsettle(call);
         let mut changes = Vec::new();
         for effect in &call.effects {
             let value = Truth::from(effect.value);
@@ -202,19 +183,6 @@ impl Contracts<'_> {
         self.apply(&changes);
     }
 
-    /// Makes the facts unknown that a call unsettles of what it has found: at its start that had no name.
-    fn unsettle_found(&mut self, call: &CallNode, found: BindingId) {
-        let mut changes = Vec::new();
-        for unsettled in &call.unsettles {
-            let (fact, when) = (&unsettled.fact, unsettled.when.as_ref());
-            if is_about(fact, found) || when.is_some_and(|when| depends_on(when, found)) {
-                let entry = ContractEntry { fact, value: Truth::Unknown, when, each: unsettled.each };
-                self.expand(entry, &mut changes);
-            }
-        }
-        self.apply(&changes);
-    }
-
     /// Makes all facts unknown that a call may have changed, after any outcome but success.
     pub(super) fn doubt(&mut self, call: &CallNode) {
         if call.effects.is_empty() && call.unsettles.is_empty() {
@@ -226,7 +194,7 @@ impl Contracts<'_> {
     }
 
     /// Works out all that a call may change, as unknown.
-    fn expand_all(&mut self, call: &CallNode, changes: &mut Vec<BeliefChange>) {
+    pub(super) fn expand_all(&mut self, call: &CallNode, changes: &mut Vec<BeliefChange>) {
         for effect in &call.effects {
             let (fact, when) = (&effect.fact, effect.when.as_ref());
             self.expand(ContractEntry { fact, value: Truth::Unknown, when, each: effect.each }, changes);

@@ -245,12 +245,7 @@ impl Turn<'_> {
             let value =
                 value.filter(|value| declared.is_some_and(|it| entities.fits(&plan.graph, value, &it.ty)));
             match value.filter(|value| self.is_offered(call, value)) {
-                Some(value) => {
-                    self.bind(binding, value);
-                    if !call.unsettles.is_empty() {
-                        self.unsettle_found(call, binding);
-                    }
-                }
+                Some(value) => self.bind(binding, value),
                 None => {
                     self.goal_failed(node, goal, plan.failed, EndCause::BadValue);
                     return;

@@ -238,7 +238,9 @@ impl Turn<'_> {
         let orphan = self.run.orphans.remove(index);
         self.run.goals.close(orphan.goal);
         self.run.freed = !self.run.queue.is_empty();
-        let mut contracts = self.contracts_of(&orphan);
+        let call = orphan.plan.call(orphan.node);
+        let busy = call.map(|call| self.busy(None, call)).unwrap_or_default();
+        let mut contracts = Contracts { busy, ..self.contracts_of(&orphan) };
         match ending {
             NodeEnding::Success => {
                 contracts.make_node(&orphan);
@@ -271,14 +273,14 @@ impl Turn<'_> {
         known.map_or(orphan.plan.failed, |index| FailureId(index as u32))
     }
 
-    fn contracts_of<'o>(&'o mut self, orphan: &'o OrphanGoal) -> Contracts<'o> {
+    pub(super) fn contracts_of<'o>(&'o mut self, orphan: &'o OrphanGoal) -> Contracts<'o> {
         Contracts {
             graph: &orphan.plan.graph,
             bindings: &orphan.bindings,
             beliefs: &mut self.run.beliefs,
             busy: Vec::new(),
             now: self.run.now,
-            begun: u64::MAX,
+            begun: orphan.seen,
         }
     }
 }
@@ -348,6 +350,7 @@ impl Turn<'_> {
             uses: 0,
             revision: self.run.revision,
             node,
+            seen: state.seen,
             plan: plan.clone(),
             bindings: bindings.clone(),
         });
