@@ -194,7 +194,8 @@ impl Motet {
         self.run_observed(policy, driver, &mut ())
     }
 
-    /// Runs a policy on a driver with an observer, which may log, pace or stop the run.
+    /// Runs a policy on a driver with an observer, which may log, pace or stop the run, look through the
+    /// camera and let other policies take over.
     ///
     /// # Errors
     ///
@@ -220,4 +221,50 @@ fn read(text: &str) -> (Source, Parsed) {
     let source = Source::new("policy", text);
     let parsed = motet_syntax::read(&source, DOCUMENT);
     (source, parsed)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use motet_graph::Graph;
+    use motet_runtime::{Effect, Engine, Observer, PreparedSwap, RetiredGraph, RunEnd, SwapRefusal, Time};
+
+    use super::Motet;
+
+    /// Lets a policy take over, and keeps what is started.
+    #[derive(Default)]
+    struct Newer {
+        offer: Option<Graph>,
+        taken: usize,
+        started: Vec<String>,
+    }
+
+    impl Observer for Newer {
+        fn effect(&mut self, _now: Time, effect: &Effect) {
+            if let Effect::Start { command, .. } = effect {
+                self.started.push(command.to_string());
+            }
+        }
+
+        fn swap(&mut self, _now: Time, engine: &Engine) -> Option<PreparedSwap> {
+            PreparedSwap::new(self.offer.take()?, &engine.running()).ok()
+        }
+
+        fn swapped(&mut self, _now: Time, _graph: &Arc<Graph>, result: Result<RetiredGraph, SwapRefusal>) {
+            self.taken += usize::from(result.is_ok());
+        }
+    }
+
+    #[test]
+    fn an_observer_lets_a_policy_take_over() {
+        let motet = Motet::open("hsr", "kitchen").unwrap();
+        let policy = |said: &str| motet.compile(&format!("policy p {{ say(\"{said}\") done }}")).unwrap();
+        let (old, new) = (policy("old"), policy("new"));
+        let mut observer = Newer { offer: Some(new.graph().clone()), ..Newer::default() };
+        let end = motet.run_observed(&old, &mut motet.simulator(&old, 7).unwrap(), &mut observer).unwrap();
+        assert!(matches!(end, RunEnd::Done { .. }), "{end}");
+        assert_eq!(observer.taken, 1);
+        assert!(observer.started.iter().any(|command| command.contains("new")), "{:?}", observer.started);
+    }
 }

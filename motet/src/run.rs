@@ -20,8 +20,8 @@ use motet_robots::quaternion::from_rpy;
 use motet_robots::scene::{Grip, Placement, Scene};
 use motet_runtime::journal::JournalHead;
 use motet_runtime::{
-    Answer, Capabilities, Detection, Effect, Engine, EngineSettings, Event, Heard, Moved, Observer, Query,
-    RunControl, StartState, Time, ToldThing, Truth, Verifier,
+    Capabilities, Effect, Engine, EngineSettings, Observer, Query, RunControl, StartState, Time, Truth,
+    Verifier,
 };
 use motet_sim::Sim;
 use motet_stdlib::lang::GRIP;
@@ -169,16 +169,12 @@ impl<'a> Guarded<'a> {
 }
 
 impl Observer for Guarded<'_> {
-    fn event(&mut self, now: Time, event: &Event) {
-        self.observer.event(now, event);
+    fn inner(&mut self) -> Option<&mut dyn Observer> {
+        Some(self.observer)
     }
 
     fn commit(&mut self, now: Time, effects: &[Effect]) -> RunControl {
         self.observer.commit(now, effects)
-    }
-
-    fn effect(&mut self, now: Time, effect: &Effect) {
-        self.observer.effect(now, effect);
     }
 
     fn reached(&mut self, now: Time) -> RunControl {
@@ -189,20 +185,8 @@ impl Observer for Guarded<'_> {
         self.observer.wants_telemetry()
     }
 
-    fn moved(&mut self, moved: &Moved) {
-        self.observer.moved(moved);
-    }
-
-    fn detected(&mut self, now: Time, seen: &[Detection], engine: &Engine) -> Vec<(Query, Answer)> {
-        self.observer.detected(now, seen, engine)
-    }
-
-    fn tell(&mut self) -> Option<ToldThing> {
-        self.observer.tell()
-    }
-
-    fn heard(&mut self, now: Time, heard: &Heard) {
-        self.observer.heard(now, heard);
+    fn wants_picture(&self) -> bool {
+        self.observer.wants_picture()
     }
 
     fn verifier(&mut self) -> Option<&mut dyn Verifier> {
@@ -212,5 +196,9 @@ impl Observer for Guarded<'_> {
 
     fn at_least_every(&self) -> Time {
         self.observer.at_least_every()
+    }
+
+    fn glance_every(&self) -> Time {
+        self.observer.glance_every()
     }
 }

@@ -30,14 +30,19 @@ const HELD_EVERY: Time = Time::from_nanos(100_000_000);
 
 /// Looks on while a graph runs, and may pace and stop it. Every method does nothing by default.
 pub trait Observer {
-    /// Observer behind this one, to which this one passes on what it does not treat itself: effects,
-    /// pictures, detections, words, swaps and the verifier. `None` for an observer that stands alone.
+    /// Observer behind this one, to which this one passes on what it does not treat itself: events, effects,
+    /// telemetry, pictures, detections, words, swaps and the verifier. `None` for an observer that stands
+    /// alone.
     fn inner(&mut self) -> Option<&mut dyn Observer> {
         None
     }
 
     /// An event is about to be handled.
-    fn event(&mut self, _now: Time, _event: &Event) {}
+    fn event(&mut self, now: Time, event: &Event) {
+        if let Some(inner) = self.inner() {
+            inner.event(now, event);
+        }
+    }
 
     /// An event was handled, or else the engine gave up, and these effects are about to be carried out, all
     /// together. Who keeps a journal writes here. Where this says [`RunControl::Stop`], nothing is started or
@@ -65,7 +70,11 @@ pub trait Observer {
     }
 
     /// The driver sent telemetry. It may have a time before that of the last event.
-    fn moved(&mut self, _moved: &Moved) {}
+    fn moved(&mut self, moved: &Moved) {
+        if let Some(inner) = self.inner() {
+            inner.moved(moved);
+        }
+    }
 
     /// True if it wants a picture of the robot's camera now. To take one may keep the driver busy for a
     /// moment.
@@ -106,7 +115,11 @@ pub trait Observer {
     }
 
     /// Called with the result of a swap, before its effects are carried out.
-    fn swapped(&mut self, _now: Time, _graph: &Arc<Graph>, _result: Result<RetiredGraph, SwapRefusal>) {}
+    fn swapped(&mut self, now: Time, graph: &Arc<Graph>, result: Result<RetiredGraph, SwapRefusal>) {
+        if let Some(inner) = self.inner() {
+            inner.swapped(now, graph, result);
+        }
+    }
 
     /// The verifier for motions that the compiler deferred, if there is one. The engine asks only if enabled
     /// by [`crate::EngineSettings::verify_within`].
