@@ -9,15 +9,15 @@ seconds=${1:-20}
 shift || true
 engine=${MOTET_FUZZ_ENGINE:-libfuzzer}
 host=$(rustc -vV | sed -n 's/^host: //p')
-out=${CARGO_TARGET_DIR:-target}/$host/release
+out=${CARGO_TARGET_DIR:-../target}/$host/fuzz
 if [ "$engine" = libfuzzer ]; then
     # What cargo-fuzz sets, but for sanitizers, which need a nightly toolchain and find nothing in safe code.
     coverage='-Cpasses=sancov-module -Cllvm-args=-sanitizer-coverage-level=4 -Cllvm-args=-sanitizer-coverage-trace-compares
         -Cllvm-args=-sanitizer-coverage-inline-8bit-counters -Cllvm-args=-sanitizer-coverage-pc-table'
-    RUSTFLAGS="$(echo $coverage) --cfg fuzzing" cargo build --locked --release --target "$host" --features libfuzzer --bin libfuzzer
+    RUSTFLAGS="$(echo $coverage) --cfg fuzzing" cargo build --locked --profile fuzz --target "$host" --features libfuzzer --bin libfuzzer
     names=$(sed -n 's/^    ("\([a-z_]*\)",.*/\1/p' src/targets.rs)
 else
-    cargo build --locked --release --target "$host" --bin mutate
+    cargo build --locked --profile fuzz --target "$host" --bin mutate
     names=$("$out/mutate")
 fi
 

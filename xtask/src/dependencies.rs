@@ -12,14 +12,8 @@ use serde_json::{Value, json};
 use spdx::{Expression, ParseMode};
 
 /// Manifests whose dependencies count.
-const MANIFESTS: [&str; 6] = [
-    "Cargo.toml",
-    "python/Cargo.toml",
-    "cli/fleet/Cargo.toml",
-    "runtime/ros2/Cargo.toml",
-    "tests/embedding/stack/Cargo.toml",
-    "fuzz/Cargo.toml",
-];
+const MANIFESTS: [&str; 4] =
+    ["Cargo.toml", "python/Cargo.toml", "cli/fleet/Cargo.toml", "tests/embedding/stack/Cargo.toml"];
 
 /// Package of a lock file that others have made.
 #[derive(Clone, Deserialize)]

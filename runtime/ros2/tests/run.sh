@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Tests of motet-ros2 against Eclipse Cyclone DDS, in a network namespace of their own: run.sh quick|fetch|physics|soak.
-# Skips with a message where a package cannot be installed or no namespace can be made.
+# MOTET and MOTET_ROS2 are the commands; without the second it is built. Skips with a message where a package cannot be installed or no
+# namespace can be made.
 set -euo pipefail
 cd "$(dirname "$0")"
 root=$(cd ../../.. && pwd)
@@ -16,10 +17,12 @@ if [ ! -x "$venv/bin/pytest" ]; then
     python3 -m venv "$venv"
     "$venv/bin/pip" install --quiet -r requirements.txt || { rm -r "$venv"; echo 'the Python packages cannot be installed: skipped'; exit 0; }
 fi
-CARGO_TARGET_DIR="$target" cargo build --locked --quiet --manifest-path "$root/runtime/ros2/Cargo.toml"
-export MOTET_ROS2="$target/debug/motet-ros2"
+if [ -z "${MOTET_ROS2:-}" ]; then
+    CARGO_TARGET_DIR="$target" cargo build --locked --quiet -p motet-ros2
+    export MOTET_ROS2="$target/debug/motet-ros2"
+fi
 # `--driver ros2:…` finds the driver in PATH.
-export PATH="$venv/bin:$target/debug:$PATH" PYTHONPATH="$root/runtime/mujoco:."
+export PATH="$venv/bin:$(dirname "$MOTET_ROS2"):$PATH" PYTHONPATH="$root/runtime/mujoco:."
 pytest=("$venv/bin/python" -m pytest -p no:cacheprovider -q -rs)
 case "$which" in
     quick) ./netns.sh "${pytest[@]}" test_driver.py test_steps.py test_layouts.py test_tasks.py ;;
