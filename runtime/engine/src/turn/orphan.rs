@@ -11,7 +11,7 @@ use crate::prepared_graph::PreparedGraph;
 use crate::state::{GoalIntent, OrphanGoal, Phase};
 use crate::time::Time;
 use crate::trace::{EndCause, NodeEnding, TraceEvent, TraceEventKind};
-use motet_graph::{Fact, FailureId, Graph, NodeId, NodeKind, ROOT, TIMEOUT, Value};
+use motet_graph::{FailureId, NodeId, NodeKind, ROOT, TIMEOUT, Value};
 use smol_str::SmolStr;
 use std::sync::Arc;
 
@@ -131,17 +131,15 @@ impl Turn<'_> {
         }
     }
 
-    /// Returns whether a goal may change a fact that the present policy was proven from.
+    /// Returns whether a goal may change a fact that the present policy was proven from: one of its start,
+    /// of a test or of an effect.
     fn may_undo_proof(&self, orphan: &OrphanGoal) -> bool {
         let Some(call) = orphan.plan.call(orphan.node) else { return false };
-        let name = |graph: &Graph, fact: &Fact| {
-            graph.fluents.get(fact.fluent.index()).map(|fluent| fluent.name.clone())
-        };
         let made = call.effects.iter().map(|effect| &effect.fact);
         let changes = made.chain(call.unsettles.iter().map(|unsettled| &unsettled.fact));
-        let changed: Vec<_> = changes.map(|fact| name(&orphan.plan.graph, fact)).collect();
-        let plan = self.plan;
-        plan.graph.initial.iter().any(|told| changed.contains(&name(&plan.graph, &told.fact)))
+        let before = &orphan.plan.graph.fluents;
+        let mut changed = changes.filter_map(|fact| before.get(fact.fluent.index()));
+        changed.any(|it| self.plan.graph.fluents.iter().any(|fluent| fluent.name == it.name))
     }
 
     /// Position where a goal stands among the orphans.
