@@ -18,7 +18,7 @@ from server import Model, serve
 from weights import train, write
 
 DIRECT = 3
-# Dialects and carriers of `motet do`: the first two in each world, the others in the first.
+# Dialects and carriers of `motet do`: the first two in each world, the others in the first. One model speaks each dialect once.
 DIALECTS = [
     ("none", "usual"),
     ("vllm", "usual"),
@@ -54,7 +54,8 @@ def main():
                         tally[f"ended by {why}"] += 1
                         continue
                     judge(binary, world, said, wrong, tally)
-                dialects = DIALECTS if world == WORLDS[0] else DIALECTS[:2]
+                first, other = (DIALECTS, DIALECTS[:2]) if models > 1 else (DIALECTS[1::2], DIALECTS[:1])
+                dialects = first if world == WORLDS[0] else other
                 for dialect, carrier in dialects:
                     kept = folder / f"{robot}_{dialect}_{carrier}"
                     carried_out(binary, world, url, (dialect, carrier), kept, wrong, tally)
