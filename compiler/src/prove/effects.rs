@@ -270,7 +270,7 @@ impl Prover<'_> {
 
     /// Writes changes, negative ones first, so that a fact that is both made and unmade holds.
     pub(crate) fn make(&mut self, changes: &[FactChange], cause: Cause) {
-        for change in changes {
+        for change in changes.iter().take_while(|_| !effort::is_used_up()) {
             let new = TruthSet::of(change.truth, cause);
             match change.sure {
                 Certainty::Always => self.write(change, cause, |_| new),
@@ -284,7 +284,7 @@ impl Prover<'_> {
     /// Makes the facts of changes unobserved.
     pub(crate) fn unsettle(&mut self, changes: &[FactChange], cause: Cause) {
         let open = TruthSet::open(cause);
-        for change in changes {
+        for change in changes.iter().take_while(|_| !effort::is_used_up()) {
             match change.sure {
                 Certainty::Sometimes => self.write(change, cause, |old| old.join(open)),
                 Certainty::Always | Certainty::Unknown | Certainty::Misread => {

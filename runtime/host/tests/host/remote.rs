@@ -5,6 +5,7 @@ use base64::engine::general_purpose::STANDARD;
 use motet_graph::arbitrary::{StepSketch, graph};
 use motet_host::remote::protocol::{CalledPrimitive, Hello};
 use motet_host::remote::{DriverAddress, DriverLog, DriverTimeouts, LineFrom, LinkError, RemoteDriver};
+use motet_runtime::journal::{OpenGoal, OpenGoals};
 use motet_runtime::{
     Answer, Command, Detection, Driver, DriverClock, DriverEvent, Engine, Event, Fault, GoalId, Heard, Moved,
     Observer, Outcome, Query, RunEnd, StartState, Time, ToldThing, run,
@@ -212,6 +213,30 @@ fn remote_driver_drops_and_tells_reports_about_goals_that_do_not_run() {
     assert_eq!(breaches.len(), expected.len(), "{breaches:?}");
     for (breach, expected) in breaches.iter().zip(expected) {
         assert!(breach.contains(expected), "{breach}");
+    }
+}
+
+#[test]
+fn remote_driver_counts_an_end_once_that_is_reported_while_the_status_is_asked() {
+    // A driver may forget a goal as soon as it has reported its end.
+    for state in [json!("unknown"), json!({"ended": {"success": null}}), json!("running")] {
+        let address = driver(Box::new(move |call| match call["method"].as_str().unwrap() {
+            "hello" => vec![welcome(call, json!({}))],
+            "status" => {
+                let goal = call["params"]["goals"][0].clone();
+                let ended = report("ended", json!({"goal": goal, "outcome": {"failure": "blocked"}}));
+                vec![ended, answer(call, json!({"goals": [{"goal": goal, "state": state}]}))]
+            }
+            method => panic!("{method} is called"),
+        }));
+        let (mut driver, told) = connect(address).unwrap();
+        let open = OpenGoal { command: go().into(), updated: false, told: None };
+        let ledger = OpenGoals { goals: [(GOAL, open)].into(), ..OpenGoals::default() };
+        let events = driver.catch_up(&ledger, "1", Time::ZERO).unwrap();
+        assert_eq!(events, [], "the end is reported already");
+        let (_, event) = driver.advance(Time::from_secs(5.0)).unwrap();
+        assert_eq!(event, DriverEvent::Ended { goal: GOAL, outcome: Outcome::Failure("blocked".into()) });
+        assert!(told.breaches.borrow().is_empty(), "{:?}", told.breaches);
     }
 }
 
