@@ -595,6 +595,26 @@ fn soundness_the_condition_of_an_effect_is_not_judged_by_what_came_after_it() {
     );
 }
 
+/// That the hand is empty since the thing fell out of it says nothing of the state before the step.
+#[test]
+fn soundness_the_condition_of_an_effect_is_not_judged_by_what_was_seen_after_the_step_began() {
+    let grow = "action grow(o: Object)\n    makes f(o) when not holding(any)\n    uses base\n";
+    let policy = "initially holding(a)\npolicy p { monitor when not holding(a) for 10 s then pause during \
+                  { grow(a) } use(a) }";
+    assert_eq!(verdicts("use", &format!("{grow}{policy}")), [Verdict::Deferred]);
+    let found = requests(&format!("{grow}{policy}"), &mut |effect| match effect {
+        Effect::Start { goal, command, .. } if command.primitive == "grow" => {
+            let args = vec![Pattern::Is(Value::Entity("a".into()))];
+            let query = Query::Fact { fluent: "holding".into(), args };
+            let fallen = DriverEvent::Observed { query, answer: Answer::Truth(false) };
+            vec![fallen, DriverEvent::Ended { goal: *goal, outcome: Outcome::Success(None) }]
+        }
+        effect => honest(effect, |_| Some(true)),
+    });
+    let asks = |request: &String| request.starts_with("observe") && request.contains("f(a)");
+    assert!(found.iter().any(asks), "{found:?}");
+}
+
 /// In a closed world the engine knows what the proof takes for false.
 #[test]
 fn soundness_a_closed_world_fires_its_monitors_at_once() {

@@ -175,10 +175,17 @@ impl Beliefs {
         let Some(facts) = self.fluents.get(fluent) else { return unknown };
         for wide in facts.wides.iter().rev() {
             if covers(&wide.args, args) {
-                let none = wide.answer == Answer::Truth(false) && self.all_false(fluent, args);
-                let pattern = args.contains(&Pattern::Any);
                 let numbers = (wide.seen, wide.changed);
-                return if pattern && !none { unknown } else { (wide.answer.clone(), numbers) };
+                if !args.contains(&Pattern::Any) {
+                    return (wide.answer.clone(), numbers);
+                }
+                if wide.answer != Answer::Truth(false) || !self.all_false(fluent, args) {
+                    return unknown;
+                }
+                // That none fits is so since the last of those that fitted has changed.
+                let changes = self.covered(fluent, args).filter_map(|id| self.cell(id));
+                let changed = changes.map(|cell| cell.changed).fold(wide.changed, u64::max);
+                return (wide.answer.clone(), (wide.seen, changed));
             }
             // A later write to some of them: only where it says the same does an earlier one stand.
             if overlaps(&wide.args, args) && wide.answer != Answer::Truth(false) {
