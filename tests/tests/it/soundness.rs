@@ -3,7 +3,8 @@
 
 use motet_graph::{Graph, NodeKind, Value, Verdict};
 use motet_runtime::{
-    Answer, DriverEvent, Effect, Engine, Event, Outcome, Pattern, PreparedSwap, Query, StartState, Time,
+    Answer, DriverEvent, Effect, Engine, Event, GoalId, Outcome, Pattern, PreparedSwap, Query, StartState,
+    Time,
 };
 use motet_syntax::{FileId, Source, Sources};
 use motet_tests::setup;
@@ -593,6 +594,33 @@ fn soundness_the_condition_of_an_effect_is_not_judged_by_what_came_after_it() {
         found.iter().any(|request| request.starts_with("observe") && request.contains("f(a)")),
         "{found:?}"
     );
+}
+
+/// A step that was interrupted may fail by itself; the reaction's failure is not lost behind it.
+#[test]
+fn soundness_a_failed_reaction_is_not_handled_as_the_failure_of_the_body() {
+    let own = "action mend(o: Object)\n    makes f(o)\n    uses voice\n    fails blocked\n\
+               action work(o: Object)\n    uses base\n    fails slipped\n";
+    let policy = "initially f(a)\npolicy p { try { monitor when g(a) then resume at most 1 { mend(a) } \
+                  during { work(a) } } catch slipped { pass() } use(a) }";
+    assert_eq!(verdicts("use", &format!("{own}{policy}")), [Verdict::Proven]);
+    let ended = |goal: &GoalId, kind: &str| DriverEvent::Ended {
+        goal: *goal,
+        outcome: Outcome::Failure(kind.into()),
+    };
+    let found = requests(&format!("{own}{policy}"), &mut |effect| match effect {
+        Effect::Start { goal, command, .. } if command.primitive == "work" => {
+            let args = vec![Pattern::Is(Value::Entity("a".into()))];
+            let query = Query::Fact { fluent: "g".into(), args };
+            let seen = DriverEvent::Observed { query, answer: Answer::Truth(true) };
+            vec![DriverEvent::Acknowledged { goal: *goal }, seen]
+        }
+        Effect::Cancel { goal, .. } => vec![ended(goal, "slipped")],
+        Effect::Start { goal, command, .. } if command.primitive == "mend" => vec![ended(goal, "blocked")],
+        effect => honest(effect, |_| Some(false)),
+    });
+    assert!(found.last().is_some_and(|last| last.contains("blocked")), "{found:?}");
+    assert!(!found.iter().any(|request| request.contains("use(")), "{found:?}");
 }
 
 /// That the hand is empty since the thing fell out of it says nothing of the state before the step.

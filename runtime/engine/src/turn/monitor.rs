@@ -325,8 +325,9 @@ impl Turn<'_> {
         let state = self.run.composites.at_mut(node.index());
         let number = state.resuming.take();
         if let Some(body_exit) = state.body_ended.take() {
-            let worse = if exit.ending == NodeEnding::Success { body_exit } else { exit };
-            self.exit(node, if body_exit.ending == NodeEnding::Success { worse } else { body_exit });
+            // A failure of the block counts as where the body still runs: behind a handler of the body's
+            // failure, all that the block may have left undone would be taken for done.
+            self.exit(node, if exit.ending == NodeEnding::Success { body_exit } else { exit });
             return;
         }
         if exit.ending != NodeEnding::Success {

@@ -95,7 +95,7 @@ impl Naive {
     pub(super) fn block_ended(&mut self, node: NodeId, body: RegionId, flow: Flow) -> Option<Flow> {
         let resumed = self.live(node).resuming.take();
         if let Some(of_body) = self.live(node).body_ended.take() {
-            return Some(if of_body == Flow::Ok { flow } else { of_body });
+            return Some(if flow == Flow::Ok { of_body } else { flow });
         }
         if flow != Flow::Ok {
             self.stop_within(node, After::Exit(flow));
