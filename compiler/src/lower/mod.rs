@@ -471,7 +471,8 @@ impl Lowering<'_> {
         for (index, need) in def.needs.iter().enumerate() {
             let verdict =
                 deferred_notes::need_verdict(self.proof, placed.as_ref(), (step, index), def, library);
-            let Some(verdict) = verdict else { break };
+            // No path of the proof reaches such a step; a policy that takes over may reach it all the same.
+            let verdict = verdict.unwrap_or(NeedVerdict::Deferred);
             needs.push(self.need(need, verdict, call, &def.fails));
         }
         graph::CallNode {

@@ -596,6 +596,13 @@ fn soundness_the_condition_of_an_effect_is_not_judged_by_what_came_after_it() {
     );
 }
 
+/// A guard of a policy that takes over may refuse a need that was proven, and its handler then runs.
+#[test]
+fn soundness_a_step_that_no_path_reaches_asks_its_needs() {
+    let policy = "policy p { try { pass() } catch timeout { wave() } catch any { use_both(a) } }";
+    assert_eq!(verdicts("use_both", &format!("initially f(a)\n{policy}")), [Verdict::Deferred; 2]);
+}
+
 /// A step that was interrupted may fail by itself; the reaction's failure is not lost behind it.
 #[test]
 fn soundness_a_failed_reaction_is_not_handled_as_the_failure_of_the_body() {
