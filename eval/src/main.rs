@@ -186,12 +186,36 @@ fn main() -> ExitCode {
     }
 }
 
+/// Command lines of all suites.
+fn usage() -> String {
+    let names: Vec<_> = SUITES.iter().map(|(name, _)| *name).collect();
+    format!(
+        "usage: eval SUITE … [-j N] [--shard K/N] [--json]\n\n  \
+         {} FILE   (saycan also with --planned)\n  \
+         dialogue FILE [--objects seen|unseen] [--every N] [TRIALS]\n  \
+         dynamic NUMBER [TRIALS]\n  \
+         tasks [FILE…] [--trials N] [TRIALS]\n  \
+         world NUMBER [TRIALS]\n  \
+         mutations\n  \
+         soundness NUMBER|FILE… [--seed S]\n  \
+         physics --robot NAME [--scene S] [--kind K] [--profile P] [--seeds N]\n  \
+         reach [SCENE|--rooms N --seed S]   (`eval reach --help`)\n\n\
+         TRIALS: [--world PROFILE] [--driver kinematic|mujoco] [--planner PLANNER] [--model M]\n        \
+         [--pictures] [--only WORD]… [--continue FILE]",
+        names.join("|")
+    )
+}
+
 fn run() -> Result<bool, String> {
     let args: Vec<String> = std::env::args().skip(1).collect();
     if let Some((_, rest)) = args.split_first().filter(|(suite, _)| *suite == "reach") {
         let (text, is_good) = motet_reach::command(rest)?;
         writeln!(std::io::stdout(), "{text}").map_err(|error| error.to_string())?;
         return Ok(is_good);
+    }
+    if args.iter().any(|arg| arg == "--help" || arg == "-h") {
+        writeln!(std::io::stdout(), "{}", usage()).map_err(|error| error.to_string())?;
+        return Ok(true);
     }
     if let Some((_, flags)) = args.split_first().filter(|(suite, _)| *suite == "physics") {
         let flags: Vec<String> = flags.iter().filter(|flag| *flag != "--json").cloned().collect();
@@ -207,19 +231,6 @@ fn run() -> Result<bool, String> {
     let flags = Flags::read(&args)?;
     let (only_json, is_planned) = (flags.only_json, flags.is_planned);
     let words: Vec<&str> = flags.words.iter().map(String::as_str).collect();
-    let usage = || {
-        let names: Vec<_> = SUITES.iter().map(|(name, _)| *name).collect();
-        format!(
-            "usage: eval {} FILE [--json], eval dialogue FILE|dynamic TRIALS [--world PROFILE] [--driver \
-             kinematic|mujoco] [--planner PLANNER] [--model M] [--pictures] [--jobs N] [--only WORD]… \
-             [--every N] [--objects seen|unseen], \
-             eval tasks [FILE…] with the same flags and [--trials N], eval world RUNS with the same flags, \
-             eval mutations, eval soundness POLICIES|FILE… [--seed S], \
-             eval physics --robot NAME [--scene S] [--seeds N] [--profile P], or \
-             eval reach [SCENE|--rooms N --seed S] (`eval reach --help`)",
-            names.join("|")
-        )
-    };
     match words.as_slice() {
         ["dynamic", count] => {
             let count = count.parse().map_err(|_| usage())?;

@@ -20,7 +20,7 @@ use crate::report::Report;
     The folder has motet.toml, scene.json and policies/hello.motet; with --card the robot's card and\n\
     body too, to be changed.")]
 pub(crate) struct NewArgs {
-    /// Folder to make, which must not exist or be empty
+    /// New or empty folder
     #[arg(value_name = "FOLDER")]
     folder: PathBuf,
     /// Built-in robot that the policies are for

@@ -40,7 +40,8 @@ pub(crate) struct DriverArgs {
     /// file
     #[arg(long, alias = "real", value_name = "NAME|FILE")]
     pub(crate) world: Option<String>,
-    /// JSON file with the answers of the simulated person
+    /// JSON file with the answers of the simulated person to `ask` and `choose`; the robot's own questions
+    /// about a request are asked on the terminal
     #[arg(long, value_name = "FILE")]
     pub(crate) answers: Option<PathBuf>,
 }

@@ -275,11 +275,14 @@ fn outlives_a_reader_that_goes_away() {
 #[test]
 fn mends_what_it_can() {
     let place = place("check_fix").file("worse.json", GOOD_JSON.replace("\"go\"", "\"goo\""));
+    let place = place.file("lost.motet", "policy p for hsr { go(nowhere_at_all) }");
     let ran = place.run("check bad.motet worse.json --scene kitchen --fix");
     ran.check(0, &["err:applied 3 fixes", "err:checked 2 documents: no errors"]);
     assert_eq!(place.read("bad.motet"), BAD.replace("goo", "go"));
     assert_eq!(place.read("worse.json"), GOOD_JSON);
     place.run("check good.motet --scene kitchen --fix").check(0, &["err:applied 0 fixes"]);
+    place.run("check lost.motet --scene kitchen --diff").check(1, &["err:1 error would be left"]);
+    place.run("check good.motet --scene kitchen --diff").check(0, &["err:0 fixes would be applied"]);
     let ran = place.run_with("check - --scene kitchen --fix", BAD.as_bytes(), &[]);
     ran.check(0, &["err:applied 1 fix"]);
     assert_eq!(ran.stdout, BAD.replace("goo", "go"));

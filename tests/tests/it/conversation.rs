@@ -352,11 +352,28 @@ fn conversation_what_was_asked_for_before_is_not_forgotten() {
     assert_eq!(outcome, Outcome::Done);
     assert_eq!(asked[0].question, "That is done. Shall I go on with \"bring me the coke\"?");
     assert_eq!(sim.holds("at", &["coke", "user"]), Some(true));
+    // Nobody says how to go on: not all is done.
+    let (outcome, asked, _) = says("bring me the coke", "bring me the apple", &[]);
+    assert_eq!((outcome, asked.len()), (Outcome::Failed(asked[0].clone()), 1));
     // Nothing that is understood.
     let (outcome, asked, sim) = says("bring me the coke", "faster", &["go on"]);
     assert_eq!(outcome, Outcome::Done, "{asked:?}");
     assert!(asked[0].question.ends_with("Shall I go on with \"bring me the coke\"?"), "{asked:?}");
     assert_eq!(sim.holds("at", &["coke", "user"]), Some(true));
+}
+
+#[test]
+fn conversation_who_asks_back_is_answered_and_asked_again() {
+    let setting = setting("hsr");
+    for back in ["where is the coke?", "is the fridge open?", "what do you hold?", "what did you do?"] {
+        let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
+        let answers = [back, "the red one"];
+        let (outcome, asked, _) = talk(&setting, &mut sim, "bring me the mug", &answers);
+        assert_eq!((outcome, asked.len()), (Outcome::Done, 2), "{back}");
+        assert_eq!(asked[0].question, asked[1].question, "{back}");
+        assert_eq!(sim.holds("at", &["coke", "user"]), Some(false), "{back}");
+        assert_eq!(sim.holds("at", &["mug_1", "user"]), Some(true), "{back}");
+    }
 }
 
 #[test]

@@ -1,7 +1,9 @@
 //! The dialogue manager: plans a request, runs the policy, retries, asks about problems, and plans anew with
 //! the answers.
 
-use motet_requests::{Intent, Polarity, ReportedLocation, RequestError, polarity, seeks};
+use motet_requests::{
+    Intent, Polarity, ReportedLocation, RequestError, RoomQuestion, Topic, polarity, seeks,
+};
 use motet_robots::scene::{Entity, Scene};
 use motet_runtime::{Driver, RunEnd, Time};
 use motet_stdlib::lang::{entities, failures, kinds, primitives};
@@ -13,6 +15,7 @@ use super::conversation::{Conversation, DialogueObserver, Outcome, Person};
 use super::early_start::Continuation;
 use super::live_run::{LiveRun, RunResult, StopReason};
 use super::problem::{Kind, Problem, bare_noun};
+use super::reply;
 use crate::Planner;
 use crate::model::{ReplyVerdict, judge};
 use crate::planned::{PlanError, PlannedRequest, quoted};
@@ -404,6 +407,9 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
     fn goes_on(&mut self, question: &Problem, before: String, or: Outcome) -> RoundResult {
         let answer = self.person.ask(question);
         self.watcher.asked(question, answer.as_deref());
+        if answer.is_none() && !self.watcher.is_stopped() {
+            return RoundResult::Over(Outcome::Failed(question.clone()));
+        }
         if !answer.is_some_and(|answer| matches!(polarity(&answer), Polarity::Yes(_))) {
             return RoundResult::Over(or);
         }
@@ -431,6 +437,16 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
             };
             let situation = self.talk.known.situation(scene);
             let meaning = answer::read(&answer, &problem, &self.task.request, &situation);
+            // Who asks back gets an answer, and then the question again.
+            if let Some(back) = motet_requests::question(&answer, &situation)
+                && !is_suggestion(&back, &meaning)
+            {
+                let known =
+                    self.talk.known_answer(&back, &self.talk.known).unwrap_or_else(|| reply::unknown(&back));
+                self.talk.memory.asked(self.now, &answer, Some(&known));
+                self.watcher.answered(&answer, Some(&known));
+                continue;
+            }
             if meaning != Answer::NotUnderstood || is_told {
                 break (answer, meaning);
             }
@@ -472,4 +488,10 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
         }
         None
     }
+}
+
+/// Returns whether a question says where to look, as in "is it in the fridge?".
+fn is_suggestion(question: &RoomQuestion, meaning: &Answer) -> bool {
+    matches!(question.topic, Topic::Placed | Topic::Existence)
+        && matches!(meaning, Answer::ReportedLocation(_) | Answer::Look { .. })
 }

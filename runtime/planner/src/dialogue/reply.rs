@@ -301,7 +301,7 @@ fn at(scene: &Scene, place: &SmolStr) -> String {
 }
 
 /// Answer of a robot that does not know, and that did not find out.
-fn unknown(question: &RoomQuestion) -> String {
+pub(super) fn unknown(question: &RoomQuestion) -> String {
     let RoomQuestion { topic, things, said, .. } = question;
     match topic {
         Topic::Standing => "I do not know where I am.".to_owned(),
