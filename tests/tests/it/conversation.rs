@@ -352,9 +352,14 @@ fn conversation_what_was_asked_for_before_is_not_forgotten() {
     assert_eq!(outcome, Outcome::Done);
     assert_eq!(asked[0].question, "That is done. Shall I go on with \"bring me the coke\"?");
     assert_eq!(sim.holds("at", &["coke", "user"]), Some(true));
-    // Nobody says how to go on: not all is done.
+    // Nobody wants the first one any more.
     let (outcome, asked, _) = says("bring me the coke", "bring me the apple", &[]);
-    assert_eq!((outcome, asked.len()), (Outcome::Failed(asked[0].clone()), 1));
+    assert_eq!((outcome, asked.len()), (Outcome::Done, 1));
+    // What could not be done is not done, whatever else was.
+    let setting = setting("hsr");
+    let mut sim = coke_in_cupboard(&setting);
+    let (outcome, asked, _) = talk(&setting, &mut sim, "bring me the coke", &["bring me the apple"]);
+    assert_eq!((outcome, asked.len()), (Outcome::Failed(asked[1].clone()), 2), "{asked:?}");
     // Nothing that is understood.
     let (outcome, asked, sim) = says("bring me the coke", "faster", &["go on"]);
     assert_eq!(outcome, Outcome::Done, "{asked:?}");

@@ -79,6 +79,8 @@ struct Task {
     request: String,
     /// The request that this one replaced, if that is still open.
     before: Option<String>,
+    /// True where the one before could not be done, and not where a person replaced it.
+    is_owed: bool,
     /// True for a request that helps with the one before, which then goes on without a question.
     helps: bool,
     /// True while the robot only looks where a person said, before it goes on.
@@ -99,8 +101,8 @@ impl Task {
         let is_other = request.contains("instead") || matches!(polarity(&request), Polarity::No(_));
         let before = before.filter(|before| !is_other && !request.contains(before.as_str()));
         let (meant, elsewhere) = (Vec::new(), Vec::new());
-        let (helps, looks, sought) = (false, false, Vec::new());
-        Self { request, before, helps, looks, sought, meant, elsewhere, questions: 0, tries: 0 }
+        let (is_owed, helps, looks, sought) = (false, false, false, Vec::new());
+        Self { request, before, is_owed, helps, looks, sought, meant, elsewhere, questions: 0, tries: 0 }
     }
 }
 
@@ -407,7 +409,7 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
     fn goes_on(&mut self, question: &Problem, before: String, or: Outcome) -> RoundResult {
         let answer = self.person.ask(question);
         self.watcher.asked(question, answer.as_deref());
-        if answer.is_none() && !self.watcher.is_stopped() {
+        if answer.is_none() && self.task.is_owed && !self.watcher.is_stopped() {
             return RoundResult::Over(Outcome::Failed(question.clone()));
         }
         if !answer.is_some_and(|answer| matches!(polarity(&answer), Polarity::Yes(_))) {
@@ -463,7 +465,7 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
                 let before = helps.then_some(earlier).or(self.task.before.take());
                 let helps = helps && self.prepares(&request, scene);
                 let task = Task::new(request, before);
-                self.task = Task { questions: self.task.questions, helps, ..task };
+                self.task = Task { questions: self.task.questions, is_owed: true, helps, ..task };
                 return None;
             }
             Answer::Look { degrees } => {
