@@ -41,6 +41,9 @@ pub struct CallFault {
     pub then: CallFaultKind,
 }
 
+/// Least factor of a call's time. A motion that takes no time never ends.
+const SLOWER: f64 = 1e-3;
+
 /// Kind of a call's fault.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
@@ -51,7 +54,7 @@ pub enum CallFaultKind {
     /// It is not accepted, for this failure.
     Refuses(FailureReport),
     /// It takes that many times as long.
-    Slower(#[schemars(range(min = 0.0))] f64),
+    Slower(#[schemars(range(min = 0.001))] f64),
     /// It never ends by itself.
     Hangs,
 }
@@ -149,8 +152,8 @@ impl Faults {
     fn ranges(&self) -> Option<String> {
         let wrong_call = self.calls.iter().find_map(|fault| match (&fault.then, fault.nth) {
             (_, Some(0)) => Some("`nth` counts from 1".to_owned()),
-            (CallFaultKind::Slower(factor), _) if *factor < 0.0 => {
-                Some(format!("`slower` is {factor}, least is 0"))
+            (CallFaultKind::Slower(factor), _) if *factor < SLOWER => {
+                Some(format!("`slower` is {factor}, least is {SLOWER}"))
             }
             (
                 CallFaultKind::Slower(_)
@@ -253,6 +256,8 @@ impl FaultSchedule {
                 CallFaultKind::Hangs => fate.hangs = true,
             }
         }
+        // The faults of a journal were not read from a file.
+        fate.slower = fate.slower.max(SLOWER);
         fate
     }
 

@@ -20,6 +20,7 @@ use crate::source::{Source, Sources, Span};
 pub fn is_steering(letter: char) -> bool {
     letter.is_control()
         || matches!(letter, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+        || letter == '\u{61c}'
 }
 
 /// Text for a terminal: what would steer it is escaped (`\u{1b}`), but for line breaks and tabs.
@@ -115,7 +116,10 @@ mod tests {
 
     #[test]
     fn escaped_leaves_nothing_that_steers_a_terminal() {
-        assert_eq!(escaped("a\u{1b}[2J\r\u{9b}b\n\tc\u{202e}"), "a\\u{1b}[2J\\r\\u{9b}b\n\tc\\u{202e}");
+        assert_eq!(
+            escaped("a\u{1b}[2J\r\u{9b}b\n\tc\u{202e}\u{61c}"),
+            "a\\u{1b}[2J\\r\\u{9b}b\n\tc\\u{202e}\\u{61c}"
+        );
     }
 
     #[test]
