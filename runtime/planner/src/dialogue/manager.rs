@@ -14,8 +14,7 @@ use super::answer::{self, Answer};
 use super::conversation::{Conversation, DialogueObserver, Outcome, Person};
 use super::early_start::Continuation;
 use super::live_run::{LiveRun, RunResult, StopReason};
-use super::problem::{Kind, Problem, bare_noun};
-use super::reply;
+use super::problem::{self, Kind, Problem, bare_noun};
 use crate::Planner;
 use crate::model::{ReplyVerdict, judge};
 use crate::planned::{PlanError, PlannedRequest, quoted};
@@ -443,8 +442,10 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
             if let Some(back) = motet_requests::question(&answer, &situation)
                 && !is_suggestion(&back, &meaning)
             {
-                let known =
-                    self.talk.known_answer(&back, &self.talk.known).unwrap_or_else(|| reply::unknown(&back));
+                let known = self
+                    .talk
+                    .known_answer(&back, &self.talk.known)
+                    .unwrap_or_else(|| problem::unknown(&back));
                 self.talk.memory.asked(self.now, &answer, Some(&known));
                 self.watcher.answered(&answer, Some(&known));
                 continue;

@@ -13,7 +13,7 @@ use smol_str::SmolStr;
 use super::conversation::{Conversation, DialogueObserver, Outcome, Person};
 use super::knowledge::Knowledge;
 use super::manager::DialogueManager;
-use super::problem::{Kind, Problem, join};
+use super::problem::{Kind, Problem, join, unknown};
 use super::senses::{ask, sense};
 use crate::Planner;
 
@@ -298,17 +298,4 @@ fn the(scene: &Scene, id: &SmolStr) -> String {
 fn at(scene: &Scene, place: &SmolStr) -> String {
     let relation = scene.entities.get(place).map_or(fluents::ON, Entity::relation);
     format!("{relation} {}", the(scene, place))
-}
-
-/// Answer of a robot that does not know, and that did not find out.
-pub(super) fn unknown(question: &RoomQuestion) -> String {
-    let RoomQuestion { topic, things, said, .. } = question;
-    match topic {
-        Topic::Standing => "I do not know where I am.".to_owned(),
-        Topic::Location | Topic::Placed if things.is_empty() => format!("I know of no {said} here."),
-        Topic::Location | Topic::Placed => format!("I do not know where the {said} is."),
-        Topic::Open | Topic::Closed => format!("I do not know if the {said} is open."),
-        Topic::Held | Topic::Holds | Topic::Contents | Topic::Existence => "I do not know.".to_owned(),
-        Topic::History | Topic::Activity | Topic::View => "I do not know.".to_owned(),
-    }
 }
