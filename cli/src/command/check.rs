@@ -11,7 +11,7 @@ use motet::document::{MAX_FIXES, is_reply, listed};
 use motet_compiler::fix::{Applicability, AppliedFix, FixLimits, fix};
 use motet_project::files::Bytes;
 use motet_project::{DOCUMENT, ProjectSession, named_robot};
-use motet_syntax::{Parsed, Severity, Source, render};
+use motet_syntax::{Parsed, Source, render};
 use serde_json::{Value, json};
 
 use crate::documents::{self, Document};
@@ -159,12 +159,12 @@ fn check(args: &CheckArgs, report: &mut Report) -> Result<Exit, CliError> {
     tally.print(&checker.sessions.into_projects(), &inputs.skipped);
     if args.fixes.diff {
         let fixes = count_irregular(tally.fixed, "fix", "fixes");
-        let rest = match tally.unfixed {
+        let rest = match report.errors() {
             0 => String::new(),
             errors => format!("; {} would be left", count(errors, "error")),
         };
         note(&format!("{fixes} would be applied to {}{rest}", count(tally.documents, "document")));
-        return Ok(if tally.fixed + tally.unfixed > 0 { Exit::Findings } else { Exit::Success });
+        return Ok(if tally.fixed + report.errors() > 0 { Exit::Findings } else { Exit::Success });
     }
     if args.fixes.is_fixing() {
         note(&format!("applied {}", count_irregular(tally.fixed, "fix", "fixes")));
@@ -213,14 +213,10 @@ impl Checker<'_> {
         let mut tally = Tally { documents: 1, ..Tally::default() };
         let (mut source, mut parsed) = found.parse();
         let shared = self.sessions.session_for(&found.folder(), &parsed.file);
-        let unchecked = |fixed, tally| CheckedDocument {
-            session: Arc::clone(&shared),
-            fixed,
-            written: None,
-            diagnostics: Vec::new(),
-            tally,
+        let Some(opened) = &shared.session else {
+            let (fixed, written, diagnostics) = (FixedDocument::default(), None, Vec::new());
+            return CheckedDocument { session: Arc::clone(&shared), fixed, written, diagnostics, tally };
         };
-        let Some(opened) = &shared.session else { return unchecked(FixedDocument::default(), tally) };
         let fixed = match self.fixes.is_fixing() {
             true => self.fix(found, (&source, &parsed), opened, &mut tally),
             false => FixedDocument::default(),
@@ -240,15 +236,11 @@ impl Checker<'_> {
         }
         tally.left += checked.deferred_notes.len();
         let all = listed(checked, opened, self.denies_deferred);
-        if self.fixes.diff {
-            // What a fix would leave is told by the run that writes it.
-            tally.unfixed += all.iter().filter(|found| found.severity == Severity::Error).count();
-            return unchecked(fixed, tally);
-        }
         let (mut written, mut diagnostics) = (None, Vec::new());
         if !all.is_empty() {
             let sources = opened.sources(source);
-            written = Some(match self.has_results {
+            // What a fix would leave is told by the run that writes it.
+            written = Some(match self.has_results || self.fixes.diff {
                 true => Written::unseen(&all),
                 false => self.style.write(&all, &sources),
             });
@@ -290,8 +282,6 @@ impl Checker<'_> {
 struct Tally {
     documents: usize,
     fixed: usize,
-    /// Errors that the fixes of `--diff` would leave.
-    unfixed: usize,
     /// Documents that are lines of a .jsonl file.
     lines: usize,
     /// Documents with prose around the policy, which a rewrite would lose.
@@ -381,7 +371,6 @@ impl Tally {
     fn sum(&mut self, other: &Self) {
         self.documents += other.documents;
         self.fixed += other.fixed;
-        self.unfixed += other.unfixed;
         self.lines += other.lines;
         self.replies += other.replies;
         self.motions += other.motions;

@@ -472,8 +472,7 @@ impl Lowering<'_> {
             let verdict =
                 deferred_notes::need_verdict(self.proof, placed.as_ref(), (step, index), def, library);
             // No path of the proof reaches such a step; a policy that takes over may reach it all the same.
-            let verdict = verdict.unwrap_or(NeedVerdict::Deferred);
-            needs.push(self.need(need, verdict, call, &def.fails));
+            needs.push(self.need(need, verdict.unwrap_or(NeedVerdict::Deferred), call, &def.fails));
         }
         graph::CallNode {
             primitive,

@@ -41,7 +41,7 @@ pub struct CallFault {
     pub then: CallFaultKind,
 }
 
-/// Least factor of a call's time. A motion that takes no time never ends.
+/// Least factor of a call's time, also of a journal's. A motion that takes no time never ends.
 const SLOWER: f64 = 1e-3;
 
 /// Kind of a call's fault.
@@ -256,7 +256,6 @@ impl FaultSchedule {
                 CallFaultKind::Hangs => fate.hangs = true,
             }
         }
-        // The faults of a journal were not read from a file.
         fate.slower = fate.slower.max(SLOWER);
         fate
     }

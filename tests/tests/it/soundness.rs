@@ -186,10 +186,8 @@ fn soundness_a_step_that_begins_again_asks_what_it_may_have_changed() {
     let found = requests(policy, &mut |effect| match effect {
         Effect::Start { goal, command, .. } => {
             let mut said = vec![DriverEvent::Acknowledged { goal: *goal }];
-            let args = vec![Pattern::Is(Value::Entity("a".into()))];
-            let query = Query::Fact { fluent: "g".into(), args };
             let begins = command.primitive == "use_up" && !std::mem::replace(&mut fired, true);
-            said.push(DriverEvent::Observed { query, answer: Answer::Truth(begins) });
+            said.push(seen_of_a("g", begins));
             if !begins {
                 said.push(DriverEvent::Ended { goal: *goal, outcome: Outcome::Success(None) });
             }
@@ -603,6 +601,13 @@ fn soundness_a_step_that_no_path_reaches_asks_its_needs() {
     assert_eq!(verdicts("use_both", &format!("initially f(a)\n{policy}")), [Verdict::Deferred; 2]);
 }
 
+/// Observation of a fact of `a`.
+fn seen_of_a(fluent: &str, truth: bool) -> DriverEvent {
+    let args = vec![Pattern::Is(Value::Entity("a".into()))];
+    let query = Query::Fact { fluent: fluent.into(), args };
+    DriverEvent::Observed { query, answer: Answer::Truth(truth) }
+}
+
 /// A step that was interrupted may fail by itself; the reaction's failure is not lost behind it.
 #[test]
 fn soundness_a_failed_reaction_is_not_handled_as_the_failure_of_the_body() {
@@ -617,10 +622,7 @@ fn soundness_a_failed_reaction_is_not_handled_as_the_failure_of_the_body() {
     };
     let found = requests(&format!("{own}{policy}"), &mut |effect| match effect {
         Effect::Start { goal, command, .. } if command.primitive == "work" => {
-            let args = vec![Pattern::Is(Value::Entity("a".into()))];
-            let query = Query::Fact { fluent: "g".into(), args };
-            let seen = DriverEvent::Observed { query, answer: Answer::Truth(true) };
-            vec![DriverEvent::Acknowledged { goal: *goal }, seen]
+            vec![DriverEvent::Acknowledged { goal: *goal }, seen_of_a("g", true)]
         }
         Effect::Cancel { goal, .. } => vec![ended(goal, "slipped")],
         Effect::Start { goal, command, .. } if command.primitive == "mend" => vec![ended(goal, "blocked")],
@@ -630,7 +632,7 @@ fn soundness_a_failed_reaction_is_not_handled_as_the_failure_of_the_body() {
     assert!(!found.iter().any(|request| request.contains("use(")), "{found:?}");
 }
 
-/// That the hand is empty since the thing fell out of it says nothing of the state before the step.
+/// A hand that lost its thing during a step was not empty before the step.
 #[test]
 fn soundness_the_condition_of_an_effect_is_not_judged_by_what_was_seen_after_the_step_began() {
     let grow = "action grow(o: Object)\n    makes f(o) when not holding(any)\n    uses base\n";
@@ -639,9 +641,7 @@ fn soundness_the_condition_of_an_effect_is_not_judged_by_what_was_seen_after_the
     assert_eq!(verdicts("use", &format!("{grow}{policy}")), [Verdict::Deferred]);
     let found = requests(&format!("{grow}{policy}"), &mut |effect| match effect {
         Effect::Start { goal, command, .. } if command.primitive == "grow" => {
-            let args = vec![Pattern::Is(Value::Entity("a".into()))];
-            let query = Query::Fact { fluent: "holding".into(), args };
-            let fallen = DriverEvent::Observed { query, answer: Answer::Truth(false) };
+            let fallen = seen_of_a("holding", false);
             vec![fallen, DriverEvent::Ended { goal: *goal, outcome: Outcome::Success(None) }]
         }
         effect => honest(effect, |_| Some(true)),

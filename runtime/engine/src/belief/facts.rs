@@ -175,17 +175,21 @@ impl Beliefs {
         let Some(facts) = self.fluents.get(fluent) else { return unknown };
         for wide in facts.wides.iter().rev() {
             if covers(&wide.args, args) {
-                let numbers = (wide.seen, wide.changed);
                 if !args.contains(&Pattern::Any) {
-                    return (wide.answer.clone(), numbers);
+                    return (wide.answer.clone(), (wide.seen, wide.changed));
                 }
-                if wide.answer != Answer::Truth(false) || !self.all_false(fluent, args) {
+                if wide.answer != Answer::Truth(false) {
                     return unknown;
                 }
                 // That none fits is so since the last of those that fitted has changed.
-                let changes = self.covered(fluent, args).filter_map(|id| self.cell(id));
-                let changed = changes.map(|cell| cell.changed).fold(wide.changed, u64::max);
-                return (wide.answer.clone(), (wide.seen, changed));
+                let mut changed = wide.changed;
+                for cell in self.covered(fluent, args).filter_map(|id| self.cell(id)) {
+                    if cell.answer != Answer::Truth(false) {
+                        return unknown;
+                    }
+                    changed = changed.max(cell.changed);
+                }
+                return (Answer::Truth(false), (wide.seen, changed));
             }
             // A later write to some of them: only where it says the same does an earlier one stand.
             if overlaps(&wide.args, args) && wide.answer != Answer::Truth(false) {
@@ -193,11 +197,6 @@ impl Beliefs {
             }
         }
         unknown
-    }
-
-    fn all_false(&self, fluent: &str, args: &[Pattern]) -> bool {
-        let mut covered = self.covered(fluent, args);
-        covered.all(|id| self.cell(id).is_none_or(|cell| cell.answer == Answer::Truth(false)))
     }
 
     /// Of a fact that is believed true and fits a pattern: the numbers of the observation and of the change.

@@ -325,8 +325,7 @@ impl Turn<'_> {
         let state = self.run.composites.at_mut(node.index());
         let number = state.resuming.take();
         if let Some(body_exit) = state.body_ended.take() {
-            // A failure of the block counts as where the body still runs: behind a handler of the body's
-            // failure, all that the block may have left undone would be taken for done.
+            // A handler of the body's failure would go on with what the block has left undone.
             self.exit(node, if exit.ending == NodeEnding::Success { body_exit } else { exit });
             return;
         }

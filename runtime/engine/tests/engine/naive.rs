@@ -54,22 +54,25 @@ fn single(steps: &[StepSketch]) -> Vec<StepSketch> {
 
 /// Each call asks for its needs, and begins once: what a goal of the policy before may still change is asked.
 fn ask_all(graph: &mut Graph) {
-    for node in &mut graph.nodes {
-        if let NodeKind::Call(call) = &mut node.kind {
-            call.retries = 0;
-            call.needs.iter_mut().for_each(|need| need.verdict = Verdict::Deferred);
-        }
+    for call in calls(graph) {
+        call.retries = 0;
+        call.needs.iter_mut().for_each(|need| need.verdict = Verdict::Deferred);
     }
 }
 
 /// No call changes a fact, so that nothing that ends later unsettles what the next policy has proven.
 fn change_nothing(graph: &mut Graph) {
-    for node in &mut graph.nodes {
-        if let NodeKind::Call(call) = &mut node.kind {
-            call.effects.clear();
-            call.unsettles.clear();
-        }
+    for call in calls(graph) {
+        call.effects.clear();
+        call.unsettles.clear();
     }
+}
+
+fn calls(graph: &mut Graph) -> impl Iterator<Item = &mut CallNode> {
+    graph.nodes.iter_mut().filter_map(|node| match &mut node.kind {
+        NodeKind::Call(call) => Some(call),
+        _ => None,
+    })
 }
 
 /// A graph whose conditions speak of single facts only, proved from nothing where it takes over.

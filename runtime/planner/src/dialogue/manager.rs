@@ -442,10 +442,8 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
             if let Some(back) = motet_requests::question(&answer, &situation)
                 && !is_suggestion(&back, &meaning)
             {
-                let known = self
-                    .talk
-                    .known_answer(&back, &self.talk.known)
-                    .unwrap_or_else(|| problem::unknown(&back));
+                let known = self.talk.known_answer(&back, &self.talk.known);
+                let known = known.unwrap_or_else(|| problem::unknown(&back));
                 self.talk.memory.asked(self.now, &answer, Some(&known));
                 self.watcher.answered(&answer, Some(&known));
                 continue;
@@ -463,10 +461,11 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
                 // What is asked for where something could not be done may be a help to it.
                 let helps = matches!(problem.kind, Kind::NotFound | Kind::NotReachable | Kind::ActionFailed);
                 let earlier = std::mem::take(&mut self.task.request);
+                let is_owed = helps || self.task.is_owed;
                 let before = helps.then_some(earlier).or(self.task.before.take());
                 let helps = helps && self.prepares(&request, scene);
                 let task = Task::new(request, before);
-                self.task = Task { questions: self.task.questions, is_owed: true, helps, ..task };
+                self.task = Task { questions: self.task.questions, is_owed, helps, ..task };
                 return None;
             }
             Answer::Look { degrees } => {
