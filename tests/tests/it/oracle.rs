@@ -2,7 +2,6 @@
 //! need, what it refutes does break one, and what it defers is unobserved on some path.
 
 use motet_compiler::Session;
-use motet_graph::{NodeKind, Verdict};
 use motet_syntax::{Severity, Source, Sources};
 use motet_tests::oracle::{self, Domain, Policy, Step};
 use proptest::prelude::*;
@@ -42,23 +41,17 @@ impl Lab {
     fn ask(&mut self, policy: &Policy) -> ProverVerdict {
         let source = Source::new("policy.motet", oracle::policy_text(&self.domain, policy));
         let id = self.sources.add(source.clone());
-        let compiled = self.session.compile(&motet_syntax::read(&source, id), None);
-        let errors = || compiled.diagnostics.iter().filter(|said| said.severity == Severity::Error);
-        if errors().any(|said| said.code.0 != "M0501") {
-            return ProverVerdict::Other;
-        }
-        let Some(graph) = compiled.graph.as_ref().filter(|_| errors().next().is_none()) else {
-            return ProverVerdict::Refuted;
-        };
-        let calls = graph.nodes.iter().filter_map(|node| match &node.kind {
-            NodeKind::Call(call) => Some(call),
-            _ => None,
-        });
-        let mut needs = calls.flat_map(|call| &call.needs);
-        if needs.any(|need| need.verdict == Verdict::Deferred) {
-            ProverVerdict::Deferred
-        } else {
+        let check = self.session.check_document(&motet_syntax::read(&source, id));
+        let mut errors = check.diagnostics.iter().filter(|said| said.severity == Severity::Error).peekable();
+        let is_refuted = errors.peek().is_some();
+        if errors.any(|said| said.code.0 != "M0501") {
+            ProverVerdict::Other
+        } else if is_refuted {
+            ProverVerdict::Refuted
+        } else if check.deferred_notes.is_empty() {
             ProverVerdict::Accepted
+        } else {
+            ProverVerdict::Deferred
         }
     }
 
