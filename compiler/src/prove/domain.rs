@@ -15,7 +15,10 @@ use super::{MAX_FIXPOINTS, PolicyEnd, Prover, Volatile};
 use crate::analysis::{Domain, Enclosing, Exit, Loop, Round};
 use crate::declare::Library;
 use crate::facts::{Atom, Cause, Delta, TruthSet, effort, show};
-use crate::ir::{BindingId, Call, Catch, Condition, Failure, Program, StepId, StepKind, TIMEOUT, When};
+use crate::ir::{
+    BindingId, BlockSlot, Call, Catch, Condition, Failure, Program, StepId, StepKind, StepPosition, TIMEOUT,
+    When,
+};
 
 impl<'a> Domain<'a> for Prover<'a> {
     type Mark = usize;
@@ -454,8 +457,9 @@ impl Prover<'_> {
                 if self.is_conflict(one, other) || self.is_conflict(other, one) {
                     self.conflict(id, atom, one, other);
                 }
-                // What both branches make is made, whichever ends last.
-                let value = if one.same_set(other) { one } else { TruthSet::open(Cause::step(id)) };
+                // What both branches make is made, whichever ends last. What both only observe is not known.
+                let is_made = one.same_set(other) && one != TruthSet::default();
+                let value = if is_made { one } else { TruthSet::open(Cause::step(id)) };
                 written.insert(atom, (value, value));
             }
         }
@@ -489,14 +493,16 @@ impl Prover<'_> {
         for (index, step) in program.steps.iter().enumerate() {
             let parent_reached = step.position.parent.as_ref().is_none_or(reached);
             let here = self.proof.reached.get(index).copied().unwrap_or(true);
-            let earlier = found.last().is_some_and(|place: &crate::ir::StepPosition| {
+            let earlier = found.last().is_some_and(|place: &StepPosition| {
                 place.parent == step.position.parent && place.slot == step.position.slot
             });
             // What could not be read has a finding of its own, and no span of its own.
             let is_gap = matches!(step.kind, StepKind::Unknown);
             if parent_reached && !here && !earlier && !is_gap {
                 found.push(step.position);
-                self.diagnostics.push(Unreached { span: step.span }.into());
+                let StepPosition { slot, index, .. } = step.position;
+                let is_in_monitor = slot == BlockSlot::During && index == 0;
+                self.diagnostics.push(Unreached { span: step.span, is_in_monitor }.into());
             }
         }
     }

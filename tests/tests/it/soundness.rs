@@ -594,6 +594,15 @@ fn soundness_the_condition_of_an_effect_is_not_judged_by_what_came_after_it() {
     );
 }
 
+/// A branch does not learn what another may change, and then neither knows it behind both.
+#[test]
+fn soundness_what_branches_only_observe_is_not_known_behind_them() {
+    let policy = "policy p { parallel { { avoid(a) } { wait until f(a) within 3 s } } avoid(a) }";
+    assert_eq!(verdicts("avoid", policy), [Verdict::Deferred]);
+    let policy = "policy p { parallel { { use(a) } { use(a) } } use_both(a) }";
+    assert_eq!(verdicts("use_both", policy), [Verdict::Deferred; 2]);
+}
+
 /// A guard of a policy that takes over may refuse a need that was proven, and its handler then runs.
 #[test]
 fn soundness_a_step_that_no_path_reaches_asks_its_needs() {
