@@ -29,23 +29,26 @@ pub(crate) fn catch_interrupts() -> Result<(), CliError> {
         if REQUESTS.fetch_add(1, Ordering::SeqCst) == 0 {
             return;
         }
-        let moving = moving();
-        if moving.is_empty() {
+        if !note_moving() {
             typed_line::restore();
             std::process::exit(130);
         }
-        let commands: Vec<&str> = moving.values().map(String::as_str).collect();
-        note(&format!(
-            "stopping: these commands may still move the robot: {}. The run ends once the driver has \
-             confirmed the stop, or has not answered in time.",
-            commands.join(", ")
-        ));
+        note("the run ends once the driver has confirmed the stop, or has not answered in time");
     })
     .map_err(|error| CliError::Message(format!("cannot handle Ctrl-C: {error}")))
 }
 
 fn moving() -> MutexGuard<'static, BTreeMap<GoalId, String>> {
     MOVING.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Says which commands may still move the robot. False if there are none.
+pub(crate) fn note_moving() -> bool {
+    let commands: Vec<String> = moving().values().cloned().collect();
+    if !commands.is_empty() {
+        note(&format!("these commands may still move the robot: {}", commands.join(", ")));
+    }
+    !commands.is_empty()
 }
 
 /// Keeps in mind what an effect lets move.

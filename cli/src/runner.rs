@@ -234,6 +234,12 @@ impl Runner<'_> {
         };
         paced.finish(&end);
         shared.iter().for_each(|page| page.borrow_mut().finish());
+        let is_stopped = |page: &SharedPage| page.borrow().hub().is_stopped();
+        let is_asked = is_interrupted() || paced.view.is_closed() || shared.as_ref().is_some_and(is_stopped);
+        if end == RunEnd::Interrupted && !is_asked {
+            note("the driver interrupted the run; nobody had asked it to");
+            return Ok(Exit::Failed);
+        }
         Ok(exit_of(&end))
     }
 }

@@ -32,7 +32,7 @@ use crate::error::{CliError, Exit, journal_error};
 use crate::flags::{
     DriverArgs, DriverChoice, JobArgs, OutputFormat, PageArgs, ResultArgs, SessionArgs, Speed, folder_of,
 };
-use crate::interrupt::note_open;
+use crate::interrupt::{note_moving, note_open};
 use crate::output::{Colors, count, escape, note, opened_again, replace_file};
 use crate::questions::{QuestionDriver, answering, jumps};
 use crate::ready_driver::{ReadyDriver, RunSubject, open_driver};
@@ -354,13 +354,14 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
     let driver: Box<dyn Driver> = match (saved, simulator) {
         (SavedDriver::Process { address, instance, .. }, _) => {
             let hello = Hello { resumed: true, ..Hello::of(replay.engine().graph(), &run) };
-            let mut driver = connect(&address.into(), hello, from)?;
+            let mut driver = connect(&address.into(), hello, from).inspect_err(|_| {
+                note_moving();
+            })?;
             let missing = capabilities(&driver, has_person).missing(replay.engine().graph());
             if !missing.is_empty() {
                 return Err(motet::Error::Lacking(missing).into());
             }
-            let caught_up = driver.catch_up(&ledger, &instance, from);
-            events.extend(caught_up.map_err(|breakage| CliError::Message(breakage.to_string()))?);
+            events.extend(driver.catch_up(&ledger, &instance, from));
             Box::new(driver)
         }
         (SavedDriver::Simulator(_), Some(simulator)) => Box::new(simulator),

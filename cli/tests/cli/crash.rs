@@ -150,7 +150,7 @@ fn signals_to_end_name_what_still_runs_in_a_conversation() {
     let output = host.wait_with_output().unwrap();
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(130), "{said}");
-    assert!(said.contains("may still move the robot: go(to: counter). The run"), "{said}");
+    assert!(said.contains("may still move the robot: go(to: counter)\nthe run ends"), "{said}");
 }
 
 #[cfg(unix)]

@@ -19,7 +19,7 @@ use super::connect::{DriverAddress, Route};
 use super::link::{Clock, KeepAlive, Link, LinkError};
 use super::protocol::{
     DriverCall, DriverMessage, DriverTimeouts, EmptyParams, GoalParams, GoalStatus, Hello, MAX_BREACHES,
-    MAX_WAITING, QueryParams, VERSION, Welcome, hear, say,
+    MAX_WAITING, QueryParams, StatusResult, VERSION, Welcome, hear, say,
 };
 use motet_graph::Graph;
 use motet_runtime::journal::{OpenGoal, OpenGoals};
@@ -128,7 +128,7 @@ impl RemoteDriver {
             route,
             patience,
             hello,
-            time: RunTime::Own { now: from, stalls: 0 },
+            time: RunTime::Own { now: from, stall: None },
             link: None,
             welcome: Welcome { protocol: VERSION, driver, instance, capabilities },
             next_id: Arc::default(),
@@ -163,7 +163,7 @@ impl RemoteDriver {
     fn set_time(&mut self, now: Time) {
         self.time = match self.welcome.capabilities.clock {
             DriverClock::Wall => RunTime::Wall(Clock::new(now)),
-            DriverClock::Driver => RunTime::Own { now, stalls: 0 },
+            DriverClock::Driver => RunTime::Own { now, stall: None },
         };
     }
 
@@ -409,21 +409,15 @@ impl RemoteDriver {
     ///
     /// A goal of which the driver has never heard was not started, if it is the same driver and the start was
     /// the last thing that was written down: then it is started now. Any other one is lost, and the engine
-    /// has it stopped safely.
-    ///
-    /// # Errors
-    ///
-    /// It does not say.
-    pub fn catch_up(
-        &mut self,
-        ledger: &OpenGoals,
-        instance: &str,
-        now: Time,
-    ) -> Result<Vec<Event>, LinkError> {
+    /// has it stopped safely. All are lost if the driver does not answer.
+    pub fn catch_up(&mut self, ledger: &OpenGoals, instance: &str, now: Time) -> Vec<Event> {
         for (&goal, open) in &ledger.goals {
             self.goals.started(goal, &open.command.primitive);
         }
-        let told = self.status(ledger.goals.keys().copied().collect())?;
+        let told = self.status(ledger.goals.keys().copied().collect()).unwrap_or_else(|why| {
+            self.log.note(&format!("no status: {why}"));
+            StatusResult { goals: Vec::new() }
+        });
         let states: BTreeMap<GoalId, GoalStatus> =
             told.goals.into_iter().map(|told| (told.goal, told.state)).collect();
         let is_same = self.welcome().instance == instance;
@@ -472,7 +466,7 @@ impl RemoteDriver {
         for query in &ledger.observations {
             self.observe(now, query);
         }
-        Ok(events.into_iter().map(Event::Driver).collect())
+        events.into_iter().map(Event::Driver).collect()
     }
 
     fn say_again(&mut self, now: Time, goal: GoalId, open: &OpenGoal) {

@@ -232,12 +232,49 @@ fn remote_driver_counts_an_end_once_that_is_reported_while_the_status_is_asked()
         let (mut driver, told) = connect(address).unwrap();
         let open = OpenGoal { command: go().into(), updated: false, told: None };
         let ledger = OpenGoals { goals: [(GOAL, open)].into(), ..OpenGoals::default() };
-        let events = driver.catch_up(&ledger, "1", Time::ZERO).unwrap();
+        let events = driver.catch_up(&ledger, "1", Time::ZERO);
         assert_eq!(events, [], "the end is reported already");
         let (_, event) = driver.advance(Time::from_secs(5.0)).unwrap();
         assert_eq!(event, DriverEvent::Ended { goal: GOAL, outcome: Outcome::Failure("blocked".into()) });
         assert!(told.breaches.borrow().is_empty(), "{:?}", told.breaches);
     }
+}
+
+#[test]
+fn remote_driver_without_a_status_has_lost_its_goals() {
+    let address = driver(Box::new(|call| match call["method"].as_str().unwrap() {
+        "hello" => vec![welcome(call, json!({}))],
+        "bye" => vec![],
+        method => {
+            assert_eq!(method, "status");
+            let error = json!({"code": 7, "message": "no"});
+            vec![json!({"jsonrpc": "2.0", "id": call["id"], "error": error})]
+        }
+    }));
+    let (mut driver, told) = connect(address).unwrap();
+    let open = OpenGoal { command: go().into(), updated: false, told: None };
+    let ledger = OpenGoals { goals: [(GOAL, open)].into(), ..OpenGoals::default() };
+    let events = driver.catch_up(&ledger, "1", Time::ZERO);
+    assert_eq!(events, [Event::Driver(DriverEvent::Lost { goal: GOAL })], "{:?}", told.notes);
+}
+
+#[test]
+fn remote_driver_that_stops_a_goal_unasked_has_lost_it() {
+    let address = driver(Box::new(|call| match call["method"].as_str().unwrap() {
+        "hello" => vec![welcome(call, json!({}))],
+        "start" | "safe_stop" => {
+            let stopped = report("stopped", json!({"goal": call["params"]["goal"]}));
+            vec![answer(call, json!({})), stopped]
+        }
+        "bye" => vec![],
+        method => panic!("{method} is called"),
+    }));
+    let (mut driver, told) = connect(address).unwrap();
+    let mut engine = Engine::new(graph(&[StepSketch::say("one")]), &StartState::default()).unwrap();
+    let end = run(&mut engine, &mut driver, &mut (), Time::ZERO);
+    assert!(matches!(&end, RunEnd::Failed { kind, .. } if kind == "timeout"), "{end:?}");
+    let breaches = told.breaches.borrow();
+    assert!(breaches[0].contains("is stopped, it says, but nobody asked for it"), "{breaches:?}");
 }
 
 /// A picture with a depth of 2 m everywhere, and a file of so many bytes.
@@ -418,13 +455,19 @@ fn remote_driver_may_own_the_clock() {
 }
 
 #[test]
-fn remote_driver_whose_clock_stands_still_is_gone() {
-    let address = driver(Box::new(|call| match call["method"].as_str().unwrap() {
-        "hello" => vec![welcome(call, json!({"clock": "driver"}))],
-        _ => vec![answer(call, json!({"now": 0.0}))],
-    }));
-    let (mut driver, told) = connect(address).unwrap();
-    let (at, event) = driver.advance(Time::from_secs(1.0)).unwrap();
-    assert_eq!((at, event), (Time::ZERO, DriverEvent::DriverLost));
-    assert!(told.notes.borrow()[0].contains("its clock stands still at 0 s"), "{:?}", told.notes);
+fn remote_driver_whose_clock_does_not_get_on_is_gone() {
+    for step in [0.0, 1e-9, 1e-4] {
+        let mut now = 0.0;
+        let address = driver(Box::new(move |call| match call["method"].as_str().unwrap() {
+            "hello" => vec![welcome(call, json!({"clock": "driver"}))],
+            _ => {
+                now += step;
+                vec![answer(call, json!({"now": now}))]
+            }
+        }));
+        let (mut driver, told) = connect(address).unwrap();
+        let (at, event) = driver.advance(Time::from_secs(1.0)).unwrap();
+        assert_eq!((at < Time::from_secs(0.1), event), (true, DriverEvent::DriverLost));
+        assert!(told.notes.borrow()[0].contains("s, not at 0.5"), "{:?}", told.notes);
+    }
 }

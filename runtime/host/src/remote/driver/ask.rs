@@ -6,7 +6,7 @@ use super::super::protocol::{
     AdvanceParams, AdvanceResult, Detections, DriverCall, DriverMessage, EmptyParams, LookParams, LookResult,
     MAX_BEFORE_ANSWER, PIECE, QueryParams, QueryResult, RpcError, StatusParams, StatusResult, hear,
 };
-use super::run_time::RunTime;
+use super::run_time::{RunTime, Stall};
 use super::{LineFrom, RemoteDriver, nonsense};
 use motet_runtime::{Answer, Detection, DriverEvent, GoalId, Query, RgbdView, Time};
 use serde::de::DeserializeOwned;
@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 
 /// Difference of times that a driver's rounding may make.
 const SLACK: Time = Time::from_nanos(1_000);
-/// Steps of a clock that stands still after which its driver is of no use.
+/// Answers that stop short of the time asked for, without a report, after which a driver is of no use.
 const MOST_STALLS: u32 = 100;
 
 impl RemoteDriver {
@@ -155,7 +155,7 @@ impl RemoteDriver {
             Ok(told) => told,
             Err(breakage) => return self.broke(&breakage),
         };
-        let RunTime::Own { now: before, stalls } = self.time else { return };
+        let RunTime::Own { now: before, stall } = self.time else { return };
         let until = Time::from_secs(asked.until);
         let now = Time::from_secs(told);
         if now.after(SLACK) < before || now > until.after(SLACK) {
@@ -167,11 +167,15 @@ impl RemoteDriver {
         for (at, _) in &mut self.outbox {
             *at = now;
         }
-        let is_stalled = now == before && self.outbox.is_empty();
-        let stalls = if is_stalled { stalls + 1 } else { 0 };
-        self.time = RunTime::Own { now, stalls };
-        if stalls >= MOST_STALLS {
-            let why = format!("its clock stands still at {told} s, and it reports nothing");
+        let stall = (!is_over && self.outbox.is_empty()).then(|| {
+            let Stall { answers, since } = stall.unwrap_or(Stall { answers: 0, since: Instant::now() });
+            Stall { answers: answers + 1, since }
+        });
+        self.time = RunTime::Own { now, stall };
+        let Some(Stall { answers, since }) = stall else { return };
+        if answers >= MOST_STALLS || since.elapsed() >= self.patience.step {
+            let until = until.secs();
+            let why = format!("its clock stands at {told} s, not at {until} s, and it reports nothing");
             self.broke(&nonsense(line, why));
         }
     }

@@ -41,10 +41,13 @@ impl GoalLedger {
         self.live.remove(&goal)
     }
 
-    /// Takes the acknowledgement of a safe stop in. False if nobody asked for it and nothing ran.
+    /// Takes the acknowledgement of a safe stop in. False if nobody asked for it.
     pub(super) fn stopped(&mut self, goal: GoalId) -> bool {
         let was_asked = self.stopping.remove(&goal);
-        self.live.remove(&goal).is_some() || was_asked
+        if was_asked {
+            self.live.remove(&goal);
+        }
+        was_asked
     }
 
     /// Breach of the contract of a primitive by the failure in which it ended, in words.

@@ -86,8 +86,12 @@ impl RemoteDriver {
                 if self.goals.stopped(goal) {
                     self.report(DriverEvent::Stopped { goal });
                 } else {
-                    let goal = told_goal(goal);
-                    self.breach(&format!("{goal} is stopped, it says, but nobody asked for it"));
+                    let told = told_goal(goal);
+                    self.breach(&format!("{told} is stopped, it says, but nobody asked for it"));
+                    if self.goals.is_live(goal) {
+                        // It is asked for now, and the step fails.
+                        self.report(DriverEvent::Lost { goal });
+                    }
                 }
             }
             DriverReport::Lost(GoalParams { goal }) => {

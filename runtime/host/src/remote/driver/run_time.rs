@@ -2,6 +2,7 @@
 
 use super::super::link::Clock;
 use motet_runtime::Time;
+use std::time::Instant;
 
 /// Time of a run with a driver in another process.
 #[derive(Clone, Copy, Debug)]
@@ -9,7 +10,14 @@ pub(super) enum RunTime {
     /// The wall clock's.
     Wall(Clock),
     /// The driver's, which stands still between calls.
-    Own { now: Time, stalls: u32 },
+    Own { now: Time, stall: Option<Stall> },
+}
+
+/// Answers to `advance` in a row that stop short of the time asked for and bring no report.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stall {
+    pub(super) answers: u32,
+    pub(super) since: Instant,
 }
 
 impl RunTime {
