@@ -28,7 +28,8 @@ fn place(name: &str) -> Place {
             "far_faults.json",
             "{\"calls\": [\n  {\"primitive\": \"pik\", \"then\": \"hangs\"},\n  \
              {\"primitive\": \"pick\", \"nth\": 1, \"then\": {\"fails\": \"sliped\"}}],\n \
-             \"world\": [{\"at\": 1, \"what\": {\"slips\": \"mug_9\"}}]}",
+             \"world\": [{\"at\": 1, \"what\": {\"slips\": \"mug_9\"}},\n \
+             {\"at\": 2, \"what\": {\"opens\": \"mug_1\"}}]}",
         )
         .file(
             "watch.motet",
@@ -77,6 +78,7 @@ fn ends_with_the_right_code() {
                 "err:there is no failure `sliped`: did you mean `slipped`?",
                 "err:far_faults.json:4:",
                 "err:there is no entity `mug_9`",
+                "err:`mug_1` is of the kind Object; the kind must be Container",
             ],
         ),
         (

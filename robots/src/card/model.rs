@@ -1,7 +1,7 @@
 //! Data model of a robot card: every number is finite and in range, every name in it exists. With the spans
 //! of the names and bounds that the compiler checks against the library.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 use indexmap::IndexMap;
 use motet_syntax::unit::Dimension;
@@ -185,6 +185,16 @@ impl CameraMount {
     #[must_use]
     pub const fn free(eye: [f64; 3]) -> Self {
         Self { eye, rests: [0.0; 2], tilt: [-FRAC_PI_2, FRAC_PI_2], is_on_arm: false }
+    }
+
+    /// Returns whether the camera is within 100 m of the base, and its elevations are angles in order.
+    #[must_use]
+    pub fn is_possible(&self) -> bool {
+        let [least, greatest] = self.tilt;
+        let mut angles = self.rests.iter().chain(&self.tilt);
+        self.eye.iter().all(|number| number.abs() <= 100.0)
+            && angles.all(|angle| angle.abs() <= TAU)
+            && least <= greatest
     }
 }
 

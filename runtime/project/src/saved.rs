@@ -68,20 +68,12 @@ pub struct SavedSimulator {
     #[serde(default)]
     world: Option<String>,
     #[serde(default)]
-    eye: Option<SavedCamera>,
+    eye: Option<CameraMount>,
     #[serde(default)]
     guard: Option<Box<SavedProject>>,
     /// True if a person answered the questions of the policy, not the simulated one.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     asks: bool,
-}
-
-/// Camera of a simulated robot. Older journals have its position alone.
-#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
-#[serde(untagged)]
-enum SavedCamera {
-    Mount(CameraMount),
-    Position([f64; 3]),
 }
 
 impl SavedDriver {
@@ -107,7 +99,7 @@ impl SavedDriver {
             told: told.map(|((name, args), holds)| (name.clone(), args.clone(), *holds)).collect(),
             profile: options.profile.clone(),
             world: options.world.as_ref().map(scene::write),
-            eye: options.eye.map(SavedCamera::Mount),
+            eye: options.eye,
             guard: project.map(Box::new),
             asks: false,
         }))
@@ -183,9 +175,14 @@ impl SavedDriver {
                        driver inside of a program: it can be replayed but not resumed";
             return Err(ProjectError::Journal(why.to_owned()));
         }
-        Self::deserialize(json).map_err(|error| {
-            ProjectError::Journal(format!("the journal does not describe the driver of the run: {error}"))
-        })
+        let wrong = |why: String| {
+            ProjectError::Journal(format!("the journal does not describe the driver of the run: {why}"))
+        };
+        let driver = Self::deserialize(json).map_err(|error| wrong(error.to_string()))?;
+        if let Self::Simulator(saved) = &driver {
+            saved.check().map_err(wrong)?;
+        }
+        Ok(driver)
     }
 }
 
@@ -199,6 +196,18 @@ fn unreadable(what: &str) -> ProjectError {
 }
 
 impl SavedSimulator {
+    /// Checks the numbers, as those of the files from which they came were checked.
+    fn check(&self) -> Result<(), String> {
+        self.faults.check().map_err(|error| error.to_string())?;
+        self.profile.check().map_err(|error| error.to_string())?;
+        match &self.eye {
+            Some(camera) if !camera.is_possible() => {
+                Err("the camera is at no place that a robot can have".to_owned())
+            }
+            Some(_) | None => Ok(()),
+        }
+    }
+
     /// Scene of the run; an empty one if none was given.
     ///
     /// # Errors
@@ -226,10 +235,7 @@ impl SavedSimulator {
             kinds: self.kinds.clone(),
             entities: self.entities.clone(),
             initial_facts: told.map(|(name, args, holds)| ((name.clone(), args.clone()), *holds)).collect(),
-            eye: self.eye.as_ref().map(|eye| match eye {
-                SavedCamera::Mount(mount) => *mount,
-                SavedCamera::Position(eye) => CameraMount::free(*eye),
-            }),
+            eye: self.eye,
             profile: self.profile.clone(),
             world: self.world.as_deref().map(read_scene).transpose()?,
         };

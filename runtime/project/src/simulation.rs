@@ -8,7 +8,7 @@ use motet_compiler::signature::Signatures;
 use motet_graph::{FactArg, Graph, Term, Value};
 use motet_robots::card::CameraMount;
 use motet_robots::scene::Scene;
-use motet_sim::{Faults, PersonScript, Profile, SimOptions};
+use motet_sim::{Faults, PersonScript, Profile, SimOptions, WorldEvent};
 use motet_syntax::ast::{File, Item};
 use motet_syntax::located::{Located, LocatedValue, parse_json};
 use motet_syntax::{FileId, Source, suggest};
@@ -113,11 +113,12 @@ impl SimulationInputs {
         Self { eye, ..self }
     }
 
-    /// Checks that the primitives, failures and entities in the file of faults exist.
+    /// Checks that the primitives, failures and entities in the file of faults exist, and that the entities
+    /// are of the right kinds.
     ///
     /// # Errors
     ///
-    /// [`ProjectError::FaultNames`] with a line for each unknown name.
+    /// [`ProjectError::FaultNames`] with a line for each name that is unknown or of a wrong kind.
     pub fn check_names(&self, known: &Signatures) -> Result<(), ProjectError> {
         let unknown = self.source.as_ref().map(|source| unknown_names(source, known));
         match unknown {
@@ -187,10 +188,11 @@ fn initial_fact(graph: &Graph, fact: &motet_graph::Fact) -> Option<(SmolStr, Vec
 enum NameKind {
     Primitive,
     Failure,
-    Entity,
+    /// Entity of a kind with this name.
+    Entity(&'static str),
 }
 
-/// Describes each unknown name of a file of faults in a line with its place.
+/// Describes each name of a file of faults that is unknown or of a wrong kind, in a line with its place.
 fn unknown_names(source: &Source, known: &Signatures) -> Vec<String> {
     let (tree, _) = parse_json(&source.text, FileId(0));
     let mut names = Vec::new();
@@ -209,11 +211,8 @@ fn collect_names<'t>(tree: &'t Located<'_>, names: &mut Vec<(NameKind, &'t Locat
         let kind = match key.text() {
             Some("primitive") => Some(NameKind::Primitive),
             Some("fails" | "refuses") => Some(NameKind::Failure),
-            Some(
-                "object" | "person" | "surface" | "container" | "slips" | "opens" | "closes" | "locks"
-                | "unlocks",
-            ) => Some(NameKind::Entity),
-            _ => None,
+            Some(key) => WorldEvent::kind_at(key).map(NameKind::Entity),
+            None => None,
         };
         match kind {
             Some(NameKind::Failure) if value.text().is_none() => {
@@ -237,12 +236,17 @@ fn describe_unknown(
     let (what, all): (_, Vec<&str>) = match kind {
         NameKind::Primitive => ("primitive", primitives.map(|callable| callable.name.as_str()).collect()),
         NameKind::Failure => ("failure", known.failures.iter().map(SmolStr::as_str).collect()),
-        NameKind::Entity => ("entity", known.entities.iter().map(|(name, _)| name.as_str()).collect()),
+        NameKind::Entity(_) => ("entity", known.entities.iter().map(|(name, _)| name.as_str()).collect()),
     };
-    if all.contains(&text) {
-        return None;
-    }
     let (line, column) = source.line_column(name.span.start);
+    if all.contains(&text) {
+        let NameKind::Entity(wanted) = kind else { return None };
+        let number = known.kinds.iter().position(|kind| kind.name == wanted)?;
+        let (_, of) = known.entities.iter().find(|(name, _)| name == text)?;
+        let found = &known.kinds.get(*of).filter(|_| !known.is_kind(*of, number))?.name;
+        let place = format!("{}:{line}:{column}", source.name);
+        return Some(format!("{place}: `{text}` is of the kind {found}; the kind must be {wanted}"));
+    }
     let near =
         suggest::closest(text, all).map_or_else(String::new, |near| format!(": did you mean `{near}`?"));
     Some(format!("{}:{line}:{column}: there is no {what} `{text}`{near}", source.name))

@@ -3,6 +3,7 @@
 use crate::world::{Rest, SimWorld};
 use indexmap::IndexMap;
 use motet_runtime::{FailureReport, Time};
+use motet_stdlib::lang::kinds;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
@@ -41,8 +42,11 @@ pub struct CallFault {
     pub then: CallFaultKind,
 }
 
-/// Least factor of a call's time, also of a journal's. A motion that takes no time never ends.
+/// Least factor of a call's time. A motion that takes no time never ends.
 const SLOWER: f64 = 1e-3;
+
+/// Greatest coordinate of a place in m.
+const FARTHEST: f64 = 10_000.0;
 
 /// Kind of a call's fault.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
@@ -110,6 +114,24 @@ pub enum WorldEvent {
     Battery(#[schemars(range(min = 0.0, max = 1.0))] f64),
 }
 
+impl WorldEvent {
+    /// Kind of the entity that a key of a file of faults names; `None` for other keys.
+    ///
+    /// ```
+    /// assert_eq!(motet_sim::WorldEvent::kind_at("opens"), Some("Container"));
+    /// ```
+    #[must_use]
+    pub fn kind_at(key: &str) -> Option<&'static str> {
+        Some(match key {
+            "person" => kinds::PERSON,
+            "slips" => kinds::OBJECT,
+            "container" | "opens" | "closes" | "locks" | "unlocks" => kinds::CONTAINER,
+            "object" | "surface" => kinds::ENTITY,
+            _ => return None,
+        })
+    }
+}
+
 /// Destination of a moved thing.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
@@ -139,8 +161,17 @@ impl Faults {
     pub fn from_json(text: &str) -> Result<Self, FaultsError> {
         let faults: Self =
             serde_json::from_str(text).map_err(|error| FaultsError { message: error.to_string() })?;
-        faults.ranges().map_or(Ok(()), |message| Err(FaultsError { message }))?;
+        faults.check()?;
         Ok(faults)
+    }
+
+    /// Checks that each number is in its range, and that nothing moves onto itself.
+    ///
+    /// # Errors
+    ///
+    /// The first fault or change that cannot be.
+    pub fn check(&self) -> Result<(), FaultsError> {
+        self.ranges().map_or(Ok(()), |message| Err(FaultsError { message }))
     }
 
     /// The file's JSON Schema.
@@ -176,9 +207,18 @@ impl WorldChange {
         if self.after_answer == Some(0) {
             return Some("`after_answer` counts from 1".to_owned());
         }
+        let is_far = |point: &[f64]| point.iter().any(|number| number.abs() > FARTHEST);
+        let far = Some(format!("a coordinate is more than {FARTHEST} m from the origin"));
         match &self.what {
             WorldEvent::Walks { speed, .. } if *speed < 1e-3 => {
                 Some(format!("`speed` is {speed} m/s, least is 0.001 m/s"))
+            }
+            WorldEvent::Walks { from, to, .. } if is_far(to) || from.is_some_and(|from| is_far(&from)) => far,
+            WorldEvent::Moves { to: Destination::Point(point), .. } if is_far(point) => far,
+            WorldEvent::Moves { object, to: Destination::Surface(to) | Destination::Container(to) }
+                if object == to =>
+            {
+                Some(format!("`{object}` cannot move onto or into itself"))
             }
             WorldEvent::Battery(charge) if !(0.0..=1.0).contains(charge) => {
                 Some(format!("`battery` is {charge}, which is not between 0 and 1"))
@@ -252,11 +292,11 @@ impl FaultSchedule {
             match &fault.then {
                 CallFaultKind::Fails(failure) => fate.fails = Some(failure.clone()),
                 CallFaultKind::Refuses(failure) => fate.refuses = Some(failure.clone()),
-                CallFaultKind::Slower(factor) => fate.slower *= factor,
+                // Several may slow it down.
+                CallFaultKind::Slower(factor) => fate.slower = (fate.slower * factor).max(SLOWER),
                 CallFaultKind::Hangs => fate.hangs = true,
             }
         }
-        fate.slower = fate.slower.max(SLOWER);
         fate
     }
 
@@ -335,6 +375,14 @@ mod tests {
         refused(r#"{"calls": [{"primitive": "go", "nth": 0, "then": "hangs"}]}"#, "counts from 1");
         refused(r#"{"world": [{"at": -1, "what": {"slips": "mug"}}]}"#, "-1 s");
         refused(r#"{"world": [{"at": 1, "what": {"battery": 2}}]}"#, "not between 0 and 1");
+        refused(
+            r#"{"world": [{"at": 1, "what": {"moves": {"object": "mug", "to": {"surface": "mug"}}}}]}"#,
+            "`mug` cannot move onto or into itself",
+        );
+        refused(
+            r#"{"world": [{"at": 1, "what": {"moves": {"object": "mug", "to": {"point": [1e300, 0, 0]}}}}]}"#,
+            "more than 10000 m",
+        );
         refused(r#"{"world": [{"after_answer": 0, "what": {"opens": "fridge"}}]}"#, "counts from 1");
         refused(
             r#"{"world": [{"at": 1, "what": {"walks": {"person": "user", "to": [0, 0], "speed": 0}}}]}"#,

@@ -142,10 +142,17 @@ impl Profile {
     pub fn from_toml(text: &str) -> Result<Self, ProfileError> {
         let profile: Self = toml::from_str(text)
             .map_err(|error| ProfileError { message: error.to_string().trim_end().to_owned() })?;
-        match profile.wrong() {
-            Some(message) => Err(ProfileError { message }),
-            None => Ok(profile),
-        }
+        profile.check()?;
+        Ok(profile)
+    }
+
+    /// Checks that each number is in its range.
+    ///
+    /// # Errors
+    ///
+    /// The first number that is not.
+    pub fn check(&self) -> Result<(), ProfileError> {
+        self.wrong().map_or(Ok(()), |message| Err(ProfileError { message }))
     }
 
     /// Describes the first number that is out of its range.
