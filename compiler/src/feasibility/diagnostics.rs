@@ -93,6 +93,15 @@ macro_rules! refusals {
             }
             help(_m) { Some("leave that place in a step before the block".to_owned()) }
             related(m) { m.related.iter().cloned().collect() }
+
+            /// Motion whose path takes longer than its step may.
+            TooSlow("M0611", Warning) { callee: SmolStr, takes: f64, within: f64 }
+            message(m) {
+                let TooSlow { callee, takes, within, .. } = m;
+                format!("the path that was found for `{callee}` takes {takes} s, and the step ends after {within} s")
+            }
+            help(m) { Some(format!("give it more time: `within {} s`", m.takes)) }
+            about(m) { Some(About { primitive: Some(m.callee.clone()), ..About::default() }) }
         }
 
         /// Diagnostic of a reason.

@@ -9,6 +9,7 @@ use motet_stdlib::lang;
 use motet_syntax::{Diagnostic, Severity};
 use smol_str::{SmolStr, format_smolstr};
 
+use super::diagnostics::TooSlow;
 use super::domain::{MotionChecker, PossibleWorld, Worlds};
 use super::geometry::SceneChange;
 use super::motion::{
@@ -67,6 +68,7 @@ impl MotionChecker<'_> {
                     if witness.is_none() {
                         let machine = self.geometry.machine();
                         let found = graph_witness(machine, &possible.at.world, motion, call.manner);
+                        warned = warned.or_else(|| self.too_slow(id, call, def, &found));
                         let end = next.known.first().filter(|_| next.lost.is_none());
                         let leaves = end.map(|end| leaves(machine, &found, motion, &end.at.world.robot));
                         witness = Some((Box::new(found), leaves.map(Box::new)));
@@ -124,6 +126,20 @@ impl MotionChecker<'_> {
         }
         self.found(id, Some(verdict), refused.or(warned));
         self.worlds = after;
+    }
+
+    /// Warning if a witness takes longer than its step may.
+    fn too_slow(
+        &self,
+        id: StepId,
+        call: &Call,
+        def: &PrimitiveDef,
+        found: &graph::Witness,
+    ) -> Option<Diagnostic> {
+        let (takes, within) = (found.path.last()?.at, call.deadline_secs(def.takes));
+        let span = self.program.step(id)?.span;
+        let mistake = || TooSlow { span, callee: def.name.clone(), takes: takes.ceil(), within };
+        (takes > within).then(|| mistake().into())
     }
 
     /// Returns true if a handler around this step catches the failure that an infeasible motion leads to.

@@ -86,7 +86,15 @@ pub(super) fn needs_left(
     let texts = guards.map(|(index, need)| {
         let each = proof.unknown_of.get(&(id, index)).copied();
         let frame = CallFrame { args: &call.args, result, each };
-        prover.show(&need.condition, true, frame)
+        let mut text = prover.show(&need.condition, true, frame);
+        if let (Some(kind), None) = (need.each, each) {
+            let kind = prover.library.kinds.get(kind.index()).map_or("?", |def| def.name.as_str());
+            text.push_str(&format!(" for each `{kind}`"));
+        }
+        if proof.retried.contains(&(id, index)) {
+            text.push_str(" in a retry");
+        }
+        text
     });
     texts.collect()
 }

@@ -156,13 +156,19 @@ impl<'a> Prover<'a> {
             self.check_retry(id, call, def, frame);
         }
         if retried || may_begin_again {
-            for (need, verdict) in def.needs.iter().zip(verdicts) {
-                if *verdict != NeedVerdict::Proven || self.need(need, frame).0.is_true() {
+            for (index, (need, verdict)) in def.needs.iter().zip(verdicts).enumerate() {
+                if *verdict != NeedVerdict::Proven {
+                    continue;
+                }
+                let (value, culprit) = self.need(need, frame);
+                if value.is_true() {
                     continue;
                 }
                 // What begins again after an interruption is asked again by the run, whatever the verdict.
                 if retried {
                     *verdict = NeedVerdict::Deferred;
+                    self.proof.retried.insert((id, index));
+                    culprit.map(|entity| self.proof.unknown_of.insert((id, index), entity));
                 }
                 self.throw(self.library.lang_items.need_failure(&need.condition, &def.fails), usize::MAX);
             }

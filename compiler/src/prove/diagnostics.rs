@@ -104,9 +104,15 @@ motet_syntax::mistakes! {
     }
 
     /// No path reaches a step.
-    Unreached("M0902", Warning) { }
+    Unreached("M0902", Warning) { is_in_monitor: bool }
     message(_m) { "this step is never reached".to_owned() }
-    help(_m) { Some("remove it, or change the steps before".to_owned()) }
+    help(m) {
+        Some(if m.is_in_monitor {
+            "the monitor around it fires as soon as it begins, because a condition already holds".to_owned()
+        } else {
+            "remove it, or change the steps before".to_owned()
+        })
+    }
 
     /// Motion of the base to a person without a monitor of the distance.
     Unwatched("M0905", Warning) { callee: SmolStr, person: SmolStr }

@@ -415,6 +415,11 @@ impl Prover<'_> {
 
     fn fact_text(&self, fact: &Fact, frame: CallFrame<'_>) -> String {
         let Some(def) = self.library.fluent(fact.fluent) else { return "…".to_owned() };
+        if frame.each.is_none() && fact.args.contains(&Some(Term::Each)) {
+            let arg =
+                |arg: &Option<Term>| arg.as_ref().map_or("any".into(), |arg| self.term_text(arg, frame));
+            return format!("{}({})", def.name, fact.args.iter().map(arg).collect::<Vec<_>>().join(", "));
+        }
         match self.key(fact, frame) {
             Some(key) => {
                 let name = |index, arg| self.argument_name(fact.fluent, index, arg);

@@ -72,6 +72,8 @@ pub(crate) struct Proof {
     pub(crate) needs: Vec<NeedVerdicts>,
     /// Entity for which a need about all of a kind is unknown, by step and index of the need.
     pub(crate) unknown_of: FxHashMap<(StepId, usize), Entity>,
+    /// Steps and indices of the needs that hold at the first attempt, and that a retry asks again.
+    pub(crate) retried: FxHashSet<(StepId, usize)>,
     /// By step, whether it is reachable.
     pub(crate) reached: Vec<bool>,
     /// Steps whose test may stay unknown in the run, so that their `else` says nothing.

@@ -35,7 +35,7 @@ impl Writer<'_> {
                 let step = self.step(*id)?;
                 let (calls, renamed) = self.calls(calls)?;
                 let texts = self.texts(&calls);
-                let title = title("insert", &texts, "before");
+                let title = title("insert", &texts, "before this step");
                 let mut edits = vec![self.insert_before(step.span, &texts)?];
                 edits.extend(self.in_place_of(step, &renamed));
                 Some(Fix { title, edits })
@@ -419,7 +419,7 @@ fn is_step(text: &str) -> bool {
         || matches!(first, "done" | "fail" | "cannot" | "replan" | "wait")
 }
 
-/// Title of a fix: "insert `go(table)` before".
+/// Title of a fix: "insert `go(table)` before this step".
 fn title(verb: &str, steps: &[String], place: &str) -> String {
     let steps: Vec<_> = steps.iter().map(|step| format!("`{step}`")).collect();
     format!("{verb} {} {place}", steps.join(", "))
