@@ -34,8 +34,8 @@ pub(crate) struct DocumentArgs {
 /// Robot, scene, state and domains.
 #[derive(Args, Clone, Debug, Default)]
 pub(crate) struct EnvironmentArgs {
-    /// Robot: a built-in name (see `motet robots`), or a folder with a robot.toml [default: the policy's
-    /// `for NAME`]
+    /// Robot: a built-in name (see `motet robots`), or a folder with a robot.toml [default: that of
+    /// the policy (`for NAME`), or of motet.toml]
     #[arg(long, value_name = "NAME|FOLDER")]
     pub(crate) robot: Option<String>,
     /// Scene: a built-in name, or a JSON file

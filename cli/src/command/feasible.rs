@@ -20,9 +20,10 @@ use crate::report::{Progress, Report};
     motet feasible --robot hsr --scene kitchen --all --format json\n\n\
     A motion is go_to(ENTITY), reach(OBJECT), reach(OBJECT, top|side|front),\n\
     reach_at(OBJECT, pose(1.9 m, 0.3 m, 0.8 m, 0 deg)), put(OBJECT, ENTITY),\n\
-    offer(OBJECT, PERSON), pull(CONTAINER), push(ENTITY), look(ENTITY), posture(NAME) or\n\
-    stand_at(pose(1.2 m, 0.5 m, 90 deg)). A place has rules: put(OBJECT, ENTITY, near: ENTITY),\n\
-    and likewise beside: ENTITY, away_from_edge: 10 cm, upright: false, at: pose(…).\n\
+    put_at(OBJECT, ENTITY, pose(1.9 m, 0.3 m, 0.8 m, 0 deg)), offer(OBJECT, PERSON), pull(CONTAINER),\n\
+    push(ENTITY), look(ENTITY), posture(NAME) or stand_at(pose(1.2 m, 0.5 m, 90 deg)). A place has\n\
+    rules: put(OBJECT, ENTITY, near: ENTITY), and likewise beside: ENTITY, away_from_edge: 10 cm,\n\
+    upright: false, at: pose(…).\n\
     The scene or the state defines the object in the hand: \"robot\": {\"holding\": …}.\n\
     Exit codes: 0 all motions of --for are feasible, 1 one is not or is unknown, 2 could not run.")]
 pub(crate) struct FeasibleArgs {

@@ -3,18 +3,18 @@
 
 use std::cell::{Cell, RefCell};
 use std::collections::VecDeque;
-use std::io::{self, BufRead, IsTerminal, Write as _};
+use std::io::{self, BufRead, IsTerminal, Read as _, Write as _};
 use std::path::Path;
 use std::rc::Rc;
 use std::sync::Arc;
-use std::sync::mpsc::{self, Receiver, RecvTimeoutError, TryRecvError};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender, TryRecvError};
 use std::thread;
 use std::time::Duration;
 
 use motet_graph::Value;
 use motet_planner::dialogue::{Kind, Person, Problem};
 use motet_project::files::read_small;
-use motet_requests::RequestContext;
+use motet_requests::{MAX_REQUEST, RequestContext};
 use motet_robots::scene::Scene;
 use motet_runtime::Outcome;
 use motet_stdlib::lang::failures;
@@ -99,14 +99,7 @@ impl OperatorInput {
         hub.iter().for_each(|hub| hub.take_lines(sender.clone()));
         let letters = typed_line::read(&sender);
         if letters.is_none() {
-            thread::spawn(move || {
-                for line in io::stdin().lock().lines() {
-                    let Ok(line) = line else { return };
-                    if sender.send(line).is_err() {
-                        return;
-                    }
-                }
-            });
+            thread::spawn(move || send_lines(io::stdin().lock(), &sender));
         }
         let is_live = is_live || hub.is_some() || io::stdin().is_terminal();
         Self::Terminal {
@@ -205,6 +198,21 @@ impl OperatorInput {
     /// True if a person sees what they type.
     pub(crate) fn is_echoed(&self) -> bool {
         matches!(self, Self::Terminal { reads_stdin: true, .. }) && io::stdin().is_terminal()
+    }
+}
+
+/// Sends each line of an input until its end. What is no UTF-8 is replaced; of a line that is too long for a
+/// request, only the beginning is sent, which is too long as well.
+fn send_lines(mut input: impl BufRead, lines: &Sender<String>) {
+    let mut line = Vec::new();
+    while input.by_ref().take(MAX_REQUEST as u64 + 1).read_until(b'\n', &mut line).is_ok_and(|read| read > 0)
+    {
+        let is_whole = line.ends_with(b"\n") || input.skip_until(b'\n').is_ok();
+        let text = String::from_utf8_lossy(line.trim_ascii_end()).into_owned();
+        if !is_whole || lines.send(text).is_err() {
+            return;
+        }
+        line.clear();
     }
 }
 

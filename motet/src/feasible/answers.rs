@@ -14,7 +14,7 @@ pub(super) fn describe(query: &MotionQuery, answer: &MotionAnswer) -> String {
             let mut line = format!(
                 "{query}: feasible, base at ({x:.2}, {y:.2}) m, {:.0}°, {}, {:.3} m clear",
                 degrees(yaw),
-                legs(witness.path.len().saturating_sub(1)),
+                segments(witness.path.len().saturating_sub(1)),
                 witness.margins.clearance,
             );
             let required = witness.margins.required;
@@ -23,7 +23,7 @@ pub(super) fn describe(query: &MotionQuery, answer: &MotionAnswer) -> String {
                 line.push_str(&format!(" (kept: base {base:.1} cm, arm {arm:.1} cm)"));
             }
             if let Some(limit) = witness.margins.limit {
-                line.push_str(&format!(", {limit:.2} rad or m from a joint's limit"));
+                line.push_str(&format!(", {limit:.2} from a joint limit (rad, or m for a prismatic joint)"));
             }
             if let Some(payload) = witness.margins.payload {
                 line.push_str(&format!(", {payload:.2} kg to spare"));
@@ -43,8 +43,8 @@ pub(super) fn describe(query: &MotionQuery, answer: &MotionAnswer) -> String {
     }
 }
 
-fn legs(number: usize) -> String {
-    if number == 1 { "1 leg".to_owned() } else { format!("{number} legs") }
+fn segments(number: usize) -> String {
+    if number == 1 { "a path of 1 segment".to_owned() } else { format!("a path of {number} segments") }
 }
 
 /// Angle in degrees from -180 (exclusive) to 180: along a path a base may turn further.

@@ -25,8 +25,8 @@ pub(super) fn parse_motions(
             name: motion.clone(),
             help: "write go_to(ENTITY), reach(OBJECT), reach(OBJECT, top|side|front), \
                    reach_at(OBJECT, pose(X, Y, Z, YAW)), \
-                   put(OBJECT, ENTITY), put(OBJECT, ENTITY, near: ENTITY), stand_at(pose(X, Y, YAW)), \
-                   offer(OBJECT, PERSON), pull(CONTAINER), push(ENTITY), look(ENTITY) \
+                   put(OBJECT, ENTITY), put(OBJECT, ENTITY, near: ENTITY), \
+                   put_at(OBJECT, ENTITY, pose(X, Y, Z, YAW)), stand_at(pose(X, Y, YAW)), offer(OBJECT, PERSON), pull(CONTAINER), push(ENTITY), look(ENTITY) \
                    or posture(NAME)"
                 .to_owned(),
         })?;
@@ -50,11 +50,18 @@ pub(super) fn parse_motions(
 /// Parses a motion such as `reach(mug_1, top)`; `None` for any other text.
 fn parse_motion(motion: &str) -> Option<MotionQuery> {
     let ExprKind::Call(call) = parse_condition(motion).ok()?.kind else { return None };
+    let id = |arg: &Arg| match &arg.value.kind {
+        ExprKind::Name(id) if arg.name.is_none() => Some(id.clone()),
+        _ => None,
+    };
     match (call.name.text.as_str(), call.args.as_slice()) {
         ("stand_at", [Arg { name: None, value, .. }]) => return parse_pose(value).map(MotionQuery::StandAt),
-        ("reach_at", [Arg { name: None, value: object, .. }, Arg { name: None, value: at, .. }]) => {
-            let ExprKind::Name(id) = &object.kind else { return None };
-            return parse_pose(at).map(|at| MotionQuery::ReachAt(id.clone(), Some(at)));
+        ("reach_at", [object, Arg { name: None, value: at, .. }]) => {
+            return Some(MotionQuery::ReachAt(id(object)?, Some(parse_pose(at)?)));
+        }
+        ("put_at", [object, on, Arg { name: None, value: at, .. }]) => {
+            let rules = PlaceRules { at: Some(parse_pose(at)?), ..PlaceRules::default() };
+            return Some(MotionQuery::Put(id(object)?, id(on)?, rules));
         }
         (_, args) if args.iter().any(|arg| arg.name.is_none() && is_pose(arg)) => return None,
         _ => {}

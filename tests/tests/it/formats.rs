@@ -142,7 +142,7 @@ fn sentences_for_a_model_are_short_and_in_order() {
          Step 2: `3` needs a unit: a `Duration` is expected. Write `3 s`.\n\
          Step 3: there is no `Object` `mug_11`. Write `mug_1`.\n",
         "Step 2: `pick` needs `at(robot, mug_1) or at(robot, kitchen_table)`, which `go(user)` made false. \
-         Insert `go(mug_1)` before.\n\
+         Insert `go(mug_1)` before this step.\n\
          The policy ends without `on(mug_1, counter)`, which `handover(mug_1, user)` made false. \
          Add `pick(mug_1)`, `go(counter)`, `place(mug_1, counter)` at the end.\n\
          Warning: Step 1: `go` moves to `user` while no monitor watches the distance. \

@@ -298,10 +298,11 @@ impl Turn<'_> {
 
     /// A judge of conditions in the world as it is believed to be.
     fn judge(&mut self, fresh: Freshness) -> Evaluator<'_> {
+        let (beliefs, bindings) = (&mut self.run.beliefs, &self.run.bindings);
         Evaluator {
             graph: &self.plan.graph,
-            beliefs: &mut self.run.beliefs,
-            bindings: &self.run.bindings,
+            beliefs,
+            bindings,
             each: None,
             fresh,
             busy: &[],
@@ -312,15 +313,17 @@ impl Turn<'_> {
 
     /// The same, which notes in `run.missing` what would have to be observed.
     fn judge_missing(&mut self, fresh: Freshness) -> Evaluator<'_> {
+        let (beliefs, bindings) = (&mut self.run.beliefs, &self.run.bindings);
+        let missing = Some(&mut self.run.missing);
         Evaluator {
             graph: &self.plan.graph,
-            beliefs: &mut self.run.beliefs,
-            bindings: &self.run.bindings,
+            beliefs,
+            bindings,
             each: None,
             fresh,
             busy: &[],
             vague: false,
-            missing: Some(&mut self.run.missing),
+            missing,
         }
     }
 

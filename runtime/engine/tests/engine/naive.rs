@@ -18,6 +18,8 @@ use smol_str::SmolStr;
 use std::cell::Cell;
 use std::collections::BTreeMap;
 
+use crate::python::{mix, seen};
+
 /// The same steps one after the other.
 fn single(steps: &[StepSketch]) -> Vec<StepSketch> {
     steps
@@ -100,22 +102,6 @@ fn ground(steps: &[StepSketch]) -> Graph {
         }
     }
     graph
-}
-
-fn mix(seed: u64, text: &str) -> u64 {
-    let mix = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3).rotate_left(5);
-    text.bytes().fold(seed ^ 0xcbf2_9ce4_8422_2325, mix) >> 7
-}
-
-/// What is seen: always the same.
-fn seen(seed: u64, query: &Query) -> Answer {
-    match (query, mix(seed, &query.to_string()) % 4) {
-        (_, 0) => Answer::Unknown,
-        (Query::Fact { .. }, number) => Answer::Truth(number % 2 == 0),
-        (Query::Measure { .. } | Query::Field { .. }, number) => {
-            Answer::Value(Value::Number(number as f64 / 5.0))
-        }
-    }
 }
 
 /// How the goal of a number ends.

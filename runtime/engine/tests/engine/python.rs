@@ -55,13 +55,13 @@ fn single(steps: &[StepSketch]) -> Vec<StepSketch> {
 }
 
 /// A number for a text; `harness.py` has the same function.
-fn mix(seed: u64, text: &str) -> u64 {
+pub(crate) fn mix(seed: u64, text: &str) -> u64 {
     let mix = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3).rotate_left(5);
     text.bytes().fold(seed ^ 0xcbf2_9ce4_8422_2325, mix) >> 7
 }
 
 /// Answer to an observation: always the same.
-fn seen(seed: u64, query: &Query) -> Answer {
+pub(crate) fn seen(seed: u64, query: &Query) -> Answer {
     match (query, mix(seed, &query.to_string()) % 4) {
         (_, 0) => Answer::Unknown,
         (Query::Fact { .. }, number) => Answer::Truth(number % 2 == 0),
