@@ -50,13 +50,7 @@ impl Error {
             Self::Refused { diagnostics, .. } => diagnostics,
             Self::Project(error) => error.diagnostics(),
             Self::Plan(PlanError::Refused { diagnostics, .. }) => diagnostics,
-            Self::Plan(_)
-            | Self::NoRobot
-            | Self::NoBody(_)
-            | Self::Graph(_)
-            | Self::Lacking(_)
-            | Self::Driver(_)
-            | Self::Journal(_) => &[],
+            _ => &[],
         }
     }
 

@@ -127,22 +127,7 @@ impl Elaborator<'_> {
                 Some(binding) => format!("`{}`, which is {}", binding.name, article(&name)),
                 None => article(&name),
             },
-            Term::Bool(_)
-            | Term::Int(_)
-            | Term::Number(_)
-            | Term::Pose { .. }
-            | Term::List(_)
-            | Term::Caught(..)
-            | Term::Param(_)
-            | Term::Result
-            | Term::Each
-            | Term::Field(..)
-            | Term::Measure(..)
-            | Term::Arith(..)
-            | Term::Template(_)
-            | Term::Count(_)
-            | Term::First(_)
-            | Term::Unknown => article(&name),
+            _ => article(&name),
         }
     }
 }

@@ -61,14 +61,7 @@ impl Geometry {
             InfeasibleReason::NotInView { by: Some(by), .. } => {
                 entity.inside.as_ref() == Some(by) && self.is_open(&at.world, by) == Some(false)
             }
-            InfeasibleReason::OutOfReach { .. }
-            | InfeasibleReason::NotInView { .. }
-            | InfeasibleReason::NoFreePose { .. }
-            | InfeasibleReason::NoPlace(_)
-            | InfeasibleReason::BlockedPath { .. }
-            | InfeasibleReason::TooHeavy { .. }
-            | InfeasibleReason::TooWide { .. }
-            | InfeasibleReason::Beside { .. } => false,
+            _ => false,
         };
         is_certain.then(|| match reason {
             InfeasibleReason::NotInView { by: Some(by), .. } => format!("`{by}` hides it from the camera"),

@@ -291,20 +291,7 @@ impl MotionChecker<'_> {
                 let bound = call.binds.and_then(|id| self.symbols.of_binding(id.index()));
                 entity(bound.ok_or_else(unknown)?)
             }
-            Term::Bool(_)
-            | Term::Int(_)
-            | Term::Number(_)
-            | Term::Text(_)
-            | Term::Pose { .. }
-            | Term::List(_)
-            | Term::Caught(..)
-            | Term::Each
-            | Term::Field(..)
-            | Term::Measure(..)
-            | Term::Arith(..)
-            | Term::Template(_)
-            | Term::Count(_)
-            | Term::Unknown => Err(unknown()),
+            _ => Err(unknown()),
         }
     }
 

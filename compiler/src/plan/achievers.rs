@@ -432,20 +432,6 @@ fn spelled(term: &Term, library: &Library, environment: &Environment) -> Option<
                 ExprKind::List(items.collect::<Option<_>>()?)
             }
         },
-        Term::Int(_)
-        | Term::Number(_)
-        | Term::Pose { .. }
-        | Term::Binding(_)
-        | Term::Caught(..)
-        | Term::Param(_)
-        | Term::Result
-        | Term::Each
-        | Term::Field(..)
-        | Term::Measure(..)
-        | Term::Arith(..)
-        | Term::Template(_)
-        | Term::Count(_)
-        | Term::First(_)
-        | Term::Unknown => return None,
+        _ => return None,
     })
 }

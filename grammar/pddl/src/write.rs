@@ -237,14 +237,7 @@ fn standard_fluents() -> &'static BTreeSet<SmolStr> {
             .filter_map(|item| match item {
                 Item::Fluent(decl) => Some(decl.name.text),
                 Item::Measure(decl) => Some(decl.name.text),
-                Item::Kind(_)
-                | Item::Failure(_)
-                | Item::Enum(_)
-                | Item::Primitive(_)
-                | Item::Policy(_)
-                | Item::Entities(_)
-                | Item::Initially(_)
-                | Item::ClosedWorld(_) => None,
+                _ => None,
             })
             .collect()
     })

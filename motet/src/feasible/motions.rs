@@ -26,7 +26,8 @@ pub(super) fn parse_motions(
             help: "write go_to(ENTITY), reach(OBJECT), reach(OBJECT, top|side|front), \
                    reach_at(OBJECT, pose(X, Y, Z, YAW)), \
                    put(OBJECT, ENTITY), put(OBJECT, ENTITY, near: ENTITY), \
-                   put_at(OBJECT, ENTITY, pose(X, Y, Z, YAW)), stand_at(pose(X, Y, YAW)), offer(OBJECT, PERSON), pull(CONTAINER), push(ENTITY), look(ENTITY) \
+                   put_at(OBJECT, ENTITY, pose(X, Y, Z, YAW)), stand_at(pose(X, Y, YAW)), \
+                   offer(OBJECT, PERSON), pull(CONTAINER), push(ENTITY), look(ENTITY) \
                    or posture(NAME)"
                 .to_owned(),
         })?;

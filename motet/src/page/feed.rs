@@ -305,15 +305,7 @@ impl PageFeed {
             TraceEventKind::GoalObserved { truth } => {
                 changes.push(json!({"k": "observed", "truth": truth.to_string()}));
             }
-            TraceEventKind::Entered { .. }
-            | TraceEventKind::Ended { .. }
-            | TraceEventKind::Started { .. }
-            | TraceEventKind::GoalEnded { .. }
-            | TraceEventKind::Tested { .. }
-            | TraceEventKind::CleanupFailed { .. }
-            | TraceEventKind::CleanupSkipped { .. }
-            | TraceEventKind::WentOn { .. }
-            | TraceEventKind::Bound { .. } => {}
+            _ => {}
         }
     }
 

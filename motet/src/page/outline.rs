@@ -90,18 +90,7 @@ fn step(
                 .collect();
             item.insert("watches".to_owned(), Value::Array(watches));
         }
-        NodeKind::Let { .. }
-        | NodeKind::Sequence { .. }
-        | NodeKind::Inline { .. }
-        | NodeKind::If { .. }
-        | NodeKind::Wait { .. }
-        | NodeKind::Delay { .. }
-        | NodeKind::Finally { .. }
-        | NodeKind::Try { .. }
-        | NodeKind::Repeat { .. }
-        | NodeKind::Each { .. }
-        | NodeKind::Parallel { .. }
-        | NodeKind::End { .. } => {}
+        _ => {}
     }
 }
 
@@ -171,16 +160,7 @@ fn number(term: &Term) -> Option<f64> {
     match term {
         Term::Literal(motet_graph::Value::Number(number)) => Some(*number),
         Term::Literal(motet_graph::Value::Int(number)) => Some(*number as f64),
-        Term::Literal(_)
-        | Term::Binding(_)
-        | Term::Each
-        | Term::Field(..)
-        | Term::Measure(..)
-        | Term::List(_)
-        | Term::Arith(..)
-        | Term::Count(_)
-        | Term::First(_)
-        | Term::Template(_) => None,
+        _ => None,
     }
 }
 

@@ -154,17 +154,7 @@ impl StepTree {
                     NodeKind::Call(call) => call.binds == Some(*binding),
                     NodeKind::Each { item, .. } => item == binding,
                     NodeKind::Let { binding: own, .. } => own == binding,
-                    NodeKind::Sequence { .. }
-                    | NodeKind::Inline { .. }
-                    | NodeKind::If { .. }
-                    | NodeKind::Wait { .. }
-                    | NodeKind::Delay { .. }
-                    | NodeKind::Finally { .. }
-                    | NodeKind::Monitor { .. }
-                    | NodeKind::Try { .. }
-                    | NodeKind::Repeat { .. }
-                    | NodeKind::Parallel { .. }
-                    | NodeKind::End { .. } => false,
+                    _ => false,
                 };
                 let node = graph.nodes.iter().position(|node| binds(&node.kind))?;
                 (NodeId(u32::try_from(node).ok()?), Some(format!("= {value}")))

@@ -76,16 +76,7 @@ impl ProjectError {
             Self::Config { .. } => Some(
                 "its keys are robot, scene, state, domains, clearance, max_duration, geometry and effort",
             ),
-            Self::Read { .. }
-            | Self::Folder { .. }
-            | Self::Irregular { .. }
-            | Self::NotText { .. }
-            | Self::Invalid { .. }
-            | Self::FaultNames(_)
-            | Self::Faults { .. }
-            | Self::Profile { .. }
-            | Self::Card(_)
-            | Self::Journal(_) => None,
+            _ => None,
         }
     }
 

@@ -213,15 +213,7 @@ pub(super) fn question(act: Act) -> &'static str {
         Act::Put | Act::Stow | Act::Store => "What shall I put there?",
         Act::Fetch => "What shall I bring?",
         Act::Find => "What shall I look for?",
-        Act::Go
-        | Act::Come
-        | Act::Pick
-        | Act::Lift
-        | Act::Take
-        | Act::Release
-        | Act::Open
-        | Act::Close
-        | Act::Move => "What do you mean?",
+        _ => "What do you mean?",
     }
 }
 

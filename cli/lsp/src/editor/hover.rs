@@ -72,14 +72,7 @@ impl HoverSource<'_> {
                 let params = params.collect::<Vec<_>>().join(", ");
                 Some(code(&format!("{word} {}({params})", named.name)))
             }
-            NameSpace::Local
-            | NameSpace::Relation
-            | NameSpace::Type
-            | NameSpace::Label
-            | NameSpace::Robot
-            | NameSpace::Resource
-            | NameSpace::Motion
-            | NameSpace::Group => None,
+            _ => None,
         }
     }
 
@@ -109,14 +102,7 @@ impl HoverSource<'_> {
                 let head = whole.split_once('{').map_or(whole, |(head, _)| head);
                 code(&without_doc(head))
             }
-            DeclarationKind::Action
-            | DeclarationKind::Perception
-            | DeclarationKind::Fluent
-            | DeclarationKind::Measure
-            | DeclarationKind::Kind
-            | DeclarationKind::Enum
-            | DeclarationKind::Case
-            | DeclarationKind::Failure => code(&without_doc(source.slice(declared.whole))),
+            _ => code(&without_doc(source.slice(declared.whole))),
         };
         if !declared.doc.is_empty() {
             text.push_str("\n\n");

@@ -20,15 +20,7 @@ pub(crate) fn renamable(all: &[Occurrence], offset: usize) -> Result<&Occurrence
             Ok(named)
         }
         NameSpace::Group => Ok(named),
-        NameSpace::Local
-        | NameSpace::Callable
-        | NameSpace::Relation
-        | NameSpace::Type
-        | NameSpace::Value
-        | NameSpace::Robot
-        | NameSpace::Resource
-        | NameSpace::Motion
-        | NameSpace::Label => Err(format!("`{}` is not declared in this document", named.name)),
+        _ => Err(format!("`{}` is not declared in this document", named.name)),
     }
 }
 

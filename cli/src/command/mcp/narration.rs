@@ -26,14 +26,7 @@ pub(super) fn narrate(graph: &Graph, now: Time, effect: &Effect) -> Option<Line>
         Effect::SafeStop { .. } => "safe stop".to_owned(),
         Effect::Hold { .. } => "held".to_owned(),
         Effect::Proceed { .. } => "goes on".to_owned(),
-        Effect::Start { .. }
-        | Effect::Cancel { .. }
-        | Effect::Update { .. }
-        | Effect::Observe { .. }
-        | Effect::Watch { .. }
-        | Effect::Unwatch { .. }
-        | Effect::Verify { .. }
-        | Effect::Finished(_) => return None,
+        _ => return None,
     };
     Some(Line::Event(at(now, &line)))
 }
@@ -86,12 +79,7 @@ fn report(graph: &Graph, record: &TraceEvent) -> Option<Line> {
             let name = graph.bindings.get(binding.index()).map(|binding| binding.name.as_str());
             event(format!("{} = {value}", name.filter(|name| *name != "_")?))
         }
-        TraceEventKind::Guard { truth: Truth::True, .. }
-        | TraceEventKind::Entered { .. }
-        | TraceEventKind::Ended { .. }
-        | TraceEventKind::GoalEnded { .. }
-        | TraceEventKind::Kept { .. }
-        | TraceEventKind::Updated { .. } => None,
+        _ => None,
     }
 }
 

@@ -269,12 +269,7 @@ impl<'a> Names<'a> {
         let text = self.condition(condition);
         match condition {
             Condition::All(parts) | Condition::AnyOf(parts) if parts.len() > 1 => format!("({text})"),
-            Condition::Literal(_)
-            | Condition::Fact(_)
-            | Condition::Compare(..)
-            | Condition::Not(_)
-            | Condition::All(_)
-            | Condition::AnyOf(_) => text,
+            _ => text,
         }
     }
 

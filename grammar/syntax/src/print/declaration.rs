@@ -232,14 +232,7 @@ fn stands_apart(item: &Item) -> bool {
     let has_body = match item {
         Item::Primitive(decl) => !decl.clauses.is_empty(),
         Item::Policy(_) => true,
-        Item::Kind(_)
-        | Item::Fluent(_)
-        | Item::Measure(_)
-        | Item::Failure(_)
-        | Item::Enum(_)
-        | Item::Entities(_)
-        | Item::Initially(_)
-        | Item::ClosedWorld(_) => false,
+        _ => false,
     };
     has_body || !head(item).0.is_empty()
 }

@@ -289,14 +289,7 @@ impl ValueSet {
                 signatures.entities_of(*kind).filter(|name| *name != "any").cloned().collect()
             }
             Type::Enum(id) => signatures.enums.get(*id).map(|def| def.cases.clone()).unwrap_or_default(),
-            Type::Bool
-            | Type::Int
-            | Type::Number
-            | Type::Quantity(_)
-            | Type::Text
-            | Type::Pose
-            | Type::Failure
-            | Type::List(_) => Vec::new(),
+            _ => Vec::new(),
         };
         let items = match ty {
             Type::List(element) => Some(Self::of(element, None, place, in_goal, grammar)),
