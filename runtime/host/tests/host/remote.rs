@@ -455,6 +455,25 @@ fn remote_driver_may_own_the_clock() {
 }
 
 #[test]
+fn remote_driver_whose_clock_is_out_of_range_is_told() {
+    for (now, said) in [(-5.0, "its time is -5.0 s"), (1e300, "its time is 1e300 s")] {
+        let address = driver(Box::new(move |call| match call["method"].as_str().unwrap() {
+            "hello" => vec![welcome(call, json!({"clock": "driver"}))],
+            "start" => vec![answer(call, json!({}))],
+            _ => {
+                let ended = report("ended", json!({"goal": GOAL, "outcome": {"success": null}}));
+                vec![ended, answer(call, json!({"now": now}))]
+            }
+        }));
+        let (mut driver, told) = connect(address).unwrap();
+        driver.start(Time::ZERO, GOAL, &go());
+        driver.advance(Time::from_secs(1.0)).unwrap();
+        driver.advance(Time::from_secs(1.0)).unwrap();
+        assert!(told.breaches.borrow()[0].contains(said), "{:?}", told.breaches);
+    }
+}
+
+#[test]
 fn remote_driver_whose_clock_does_not_get_on_is_gone() {
     for step in [0.0, 1e-9, 1e-4] {
         let mut now = 0.0;

@@ -158,9 +158,9 @@ impl RemoteDriver {
         let RunTime::Own { now: before, stall } = self.time else { return };
         let until = Time::from_secs(asked.until);
         let now = Time::from_secs(told);
-        if now.after(SLACK) < before || now > until.after(SLACK) {
-            let (from, to) = (before.secs(), until.secs());
-            self.breach(&format!("its time is {told} s after it advanced from {from} s to {to} s at most"));
+        let (from, to, slack) = (before.secs(), until.secs(), SLACK.secs());
+        if told < from - slack || told > to + slack {
+            self.breach(&format!("its time is {told:?} s after it advanced from {from} s to {to} s at most"));
         }
         let is_over = now.after(SLACK) >= until;
         let now = if is_over { until } else { now.max(before) };
