@@ -65,31 +65,12 @@ impl SceneQuantity {
     }
 
     pub(super) fn has_to_be_positive(self) -> bool {
-        match self {
-            Self::Size | Self::Mass | Self::Opening | Self::Scale | Self::FocalLength => true,
-            Self::Coordinate
-            | Self::Clearance
-            | Self::Angle
-            | Self::Pixel
-            | Self::Joint
-            | Self::Direction
-            | Self::Field => false,
-        }
+        matches!(self, Self::Size | Self::Mass | Self::Opening | Self::Scale | Self::FocalLength)
     }
 
     /// True if the magnitude is limited to [`FURTHEST`].
     pub(super) fn has_bound(self) -> bool {
-        match self {
-            Self::Coordinate | Self::Size | Self::Angle | Self::Joint => true,
-            // A clearance has a bound of its own.
-            Self::Clearance
-            | Self::Mass
-            | Self::Opening
-            | Self::Scale
-            | Self::FocalLength
-            | Self::Pixel
-            | Self::Direction
-            | Self::Field => false,
-        }
+        // A clearance has a bound of its own.
+        matches!(self, Self::Coordinate | Self::Size | Self::Angle | Self::Joint)
     }
 }

@@ -48,7 +48,7 @@ pub fn plan(
     let parsed = motet_syntax::read(&Source::new("plan.motet", text.as_str()), FileId(0));
     let compiled = session.compile(&parsed, None);
     if compiled.graph.is_some() {
-        return Ok(Planned { text, parsed, compiled, looked_at: plan.expanded_states });
+        return Ok(Planned { text, parsed, compiled, looked_at: plan.expanded_states }.with_time(session));
     }
     // A step that is asked for by its name has needs that no goal says.
     if aims.iter().any(|aim| aim.named_step.is_some() || aim.awaits.is_some())

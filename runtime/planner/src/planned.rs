@@ -1,10 +1,13 @@
 //! Results of planning: a policy that passed the check, or the reason why there is none.
 
-use motet_compiler::Compiled;
+use std::collections::BTreeMap;
+
 use motet_compiler::plan::NoPlan;
+use motet_compiler::{Compiled, Session};
+use motet_graph::NodeKind;
 use motet_requests::{Intent, RequestError};
 use motet_syntax::ast::{Expr, ExprKind};
-use motet_syntax::{Diagnostic, Parsed, Severity, Span, print};
+use motet_syntax::{Diagnostic, FileId, Parsed, Severity, Source, Span, print};
 use thiserror::Error;
 
 /// A policy that reaches the requested goals.
@@ -18,6 +21,41 @@ pub struct Planned {
     pub compiled: Compiled,
     /// Number of states that the search expanded.
     pub looked_at: usize,
+}
+
+/// Code of the warning that a path takes longer than its step may.
+const TOO_SLOW: &str = "M0611";
+/// Time of a step as a multiple of the time of its path: a driver also thinks, and grips.
+const SLACK: f64 = 1.5;
+
+impl Planned {
+    /// The policy with a deadline for each step without one whose path takes longer than the step may.
+    pub(crate) fn with_time(self, session: &Session) -> Self {
+        let nodes = self.compiled.graph.iter().flat_map(|graph| &graph.nodes);
+        let paths: BTreeMap<&str, f64> = nodes
+            .filter_map(|node| {
+                let NodeKind::Call(call) = &node.kind else { return None };
+                let path = &call.motion.as_ref()?.witness.as_ref()?.path;
+                Some((node.path.as_str(), path.last()?.at))
+            })
+            .collect();
+        let slow = self.compiled.diagnostics.iter().filter(|said| said.code.0 == TOO_SLOW);
+        let mut deadlines: Vec<(usize, f64)> = slow
+            .filter(|said| self.text.get(said.span.range()).is_some_and(|step| step.ends_with(')')))
+            .filter_map(|said| Some((said.span.end as usize, *paths.get(said.path.as_str())?)))
+            .collect();
+        if deadlines.is_empty() {
+            return self;
+        }
+        deadlines.sort_unstable_by_key(|(end, _)| std::cmp::Reverse(*end));
+        let mut text = self.text.clone();
+        for (end, takes) in deadlines {
+            text.insert_str(end, &format!(" within {} s", (takes * SLACK).ceil()));
+        }
+        let parsed = motet_syntax::read(&Source::new("plan.motet", text.as_str()), FileId(0));
+        let compiled = session.compile(&parsed, None);
+        if compiled.graph.is_some() { Self { text, parsed, compiled, ..self } } else { self }
+    }
 }
 
 /// A request that was understood, with its policy.

@@ -74,7 +74,7 @@ pub fn judge(session: &Session, reply: &str) -> ReplyVerdict {
         return ReplyVerdict::Bad { findings: errors(compiled.diagnostics) };
     }
     ReplyVerdict::Good {
-        planned: Box::new(Planned { text, parsed, compiled, looked_at: 0 }),
+        planned: Box::new(Planned { text, parsed, compiled, looked_at: 0 }.with_time(session)),
         mended,
         changed,
     }

@@ -81,15 +81,7 @@ impl Item {
     pub fn policy(&self) -> Option<&Policy> {
         match self {
             Self::Policy(policy) => Some(policy),
-            Self::Kind(_)
-            | Self::Fluent(_)
-            | Self::Measure(_)
-            | Self::Failure(_)
-            | Self::Enum(_)
-            | Self::Primitive(_)
-            | Self::Entities(_)
-            | Self::Initially(_)
-            | Self::ClosedWorld(_) => None,
+            _ => None,
         }
     }
 

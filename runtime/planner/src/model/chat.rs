@@ -163,16 +163,7 @@ impl ModelError {
     /// True if another attempt cannot succeed, or took all the time that it may.
     #[must_use]
     pub const fn is_lasting(&self) -> bool {
-        match self {
-            Self::Unreachable { .. }
-            | Self::Refused { .. }
-            | Self::Declined { .. }
-            | Self::Busy { .. }
-            | Self::TimedOut { .. }
-            | Self::TooInvolved { .. }
-            | Self::Cancelled => true,
-            Self::TooLong { .. } | Self::CutOff { .. } | Self::Malformed { .. } => false,
-        }
+        !matches!(self, Self::TooLong { .. } | Self::CutOff { .. } | Self::Malformed { .. })
     }
 }
 

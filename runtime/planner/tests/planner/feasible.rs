@@ -2,7 +2,9 @@
 
 use super::common::{hsr, kitchen, session, walled};
 use motet_compiler::Session;
+use motet_planner::builtin;
 use motet_planner::prompt::{self, Reachability};
+use motet_requests::RequestContext;
 use motet_robots::scene::{EntityShape, Scene};
 use motet_syntax::Sources;
 use std::time::Duration;
@@ -59,4 +61,16 @@ fn reachability_without_motions_or_time_rests_on_numbers() {
     assert_eq!(feasible(&plain, &scene, "mug_1", LONG), Reachability::AsFarAsNumbersTell);
     let heavy = with_mug(|mug| mug.mass_kg = Some(5.0));
     assert!(matches!(feasible(&plain, &heavy, "mug_1", Duration::ZERO), Reachability::No(_)));
+}
+
+/// Around the open drawer the path to it takes longer than `place` may.
+#[test]
+fn plan_gives_a_step_the_time_of_its_path() {
+    let scene = kitchen();
+    let session = session(&scene);
+    let situation = RequestContext::new(&scene);
+    let planned = builtin::answer(&session, Some(&hsr()), "put the coke in the drawer", &situation).unwrap();
+    let said = &planned.planned.compiled.diagnostics;
+    assert!(said.iter().all(|said| said.code.0 != "M0611"), "{said:?}");
+    assert!(planned.planned.text.contains("place(coke, drawer_1) within "), "{}", planned.planned.text);
 }
