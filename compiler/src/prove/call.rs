@@ -27,6 +27,11 @@ impl<'a> Prover<'a> {
         self.erode();
 
         self.check_fresh(id, call, def);
+        // Of an earlier visit.
+        for index in 0..def.needs.len() {
+            self.proof.retried.remove(&(id, index));
+            self.proof.unknown_of.remove(&(id, index));
+        }
         let mut verdicts = self.needs(id, def, def.needs.len(), frame, span);
         if self.mode == Mode::Explain {
             self.note_certain(id, def);

@@ -457,8 +457,8 @@ impl Prover<'_> {
                 if self.is_conflict(one, other) || self.is_conflict(other, one) {
                     self.conflict(id, atom, one, other);
                 }
-                // What both branches make is made, whichever ends last. What both only observe is not known.
-                let is_made = one.same_set(other) && one != TruthSet::default();
+                // What both branches make on all of their paths is made, whichever ends last.
+                let is_made = one.same_set(other) && one.same_set(first.1) && other.same_set(alone);
                 let value = if is_made { one } else { TruthSet::open(Cause::step(id)) };
                 written.insert(atom, (value, value));
             }

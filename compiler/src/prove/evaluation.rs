@@ -36,19 +36,7 @@ impl Prover<'_> {
             }
             Term::Result => frame.result.map(|entity| entity.0),
             Term::Each => frame.each.map(|entity| entity.0),
-            Term::Bool(_)
-            | Term::Int(_)
-            | Term::Number(_)
-            | Term::Text(_)
-            | Term::Pose { .. }
-            | Term::List(_)
-            | Term::Field(..)
-            | Term::Measure(..)
-            | Term::Arith(..)
-            | Term::Template(_)
-            | Term::Count(_)
-            | Term::Caught(..)
-            | Term::Unknown => None,
+            _ => None,
         }
     }
 
@@ -277,25 +265,12 @@ impl Prover<'_> {
                 };
                 value.is_finite().then_some(value)
             }
-            Term::Bool(_)
-            | Term::Text(_)
-            | Term::Pose { .. }
-            | Term::Case(..)
-            | Term::Entity(_)
-            | Term::List(_)
-            | Term::Binding(_)
-            | Term::Caught(..)
-            | Term::Result
-            | Term::Each
-            | Term::Measure(..)
-            | Term::Template(_)
-            | Term::First(_)
-            | Term::Unknown => None,
             // An argument may be a list that is written out.
             Term::Count(list) => match self.literal(list, frame)? {
                 Term::List(items) => Some(items.len() as f64),
                 _ => None,
             },
+            _ => None,
         }
     }
 }

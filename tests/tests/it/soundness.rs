@@ -603,6 +603,18 @@ fn soundness_what_branches_only_observe_is_not_known_behind_them() {
     assert_eq!(verdicts("use_both", policy), [Verdict::Deferred; 2]);
 }
 
+/// Each of two branches makes a fact on some of its paths.
+#[test]
+fn soundness_what_branches_may_make_is_not_made_behind_them() {
+    let domain = "initially not f(a)\nfluent h(o: Object)\nfluent k(o: Object)\naction raise(o: Object)\n    \
+                  makes f(o)\n    uses base\n";
+    let branches = "{ if h(a) { make(a) } } { if k(a) { raise(a) } }";
+    let policy = format!("{domain}policy p {{ parallel {{ {branches} }} use(a) }}");
+    assert_eq!(verdicts("use", &policy), [Verdict::Deferred]);
+    let made = format!("{domain}policy p {{ parallel {{ {{ make(a) }} {{ raise(a) }} }} use(a) }}");
+    assert_eq!(verdicts("use", &made), [Verdict::Proven]);
+}
+
 /// A guard of a policy that takes over may refuse a need that was proven, and its handler then runs.
 #[test]
 fn soundness_a_step_that_no_path_reaches_asks_its_needs() {
