@@ -190,6 +190,8 @@ pub(crate) struct Runner<'a> {
     pub(crate) journal: Option<JournalWriter>,
     /// `true` if the run can be simulated again, so that its motion need not be written down.
     pub(crate) is_simulated: bool,
+    /// `true` if a person stopped the run before it was resumed.
+    pub(crate) was_stopped: bool,
     /// Present time of the driver.
     pub(crate) from: Time,
     /// First events of the engine.
@@ -235,9 +237,12 @@ impl Runner<'_> {
         paced.finish(&end);
         shared.iter().for_each(|page| page.borrow_mut().finish());
         let is_stopped = |page: &SharedPage| page.borrow().hub().is_stopped();
-        let is_asked = is_interrupted() || paced.view.is_closed() || shared.as_ref().is_some_and(is_stopped);
+        let is_asked = self.was_stopped
+            || is_interrupted()
+            || paced.view.is_closed()
+            || shared.as_ref().is_some_and(is_stopped);
         if end == RunEnd::Interrupted && !is_asked {
-            note("the driver interrupted the run; nobody had asked it to");
+            note("the driver ended a step as interrupted, although nobody had asked for that");
             return Ok(Exit::Failed);
         }
         Ok(exit_of(&end))

@@ -174,7 +174,8 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
     let paced = PacedView::new(view, speed).with_guard(guard).with_room(opened.scene.clone());
     let paced = with_desk(paced, page.as_ref(), Some(Arc::clone(&shared)), args, (colors, clock));
     let events = vec![Event::Begin];
-    Runner { engine, driver, journal, is_simulated, from: Time::ZERO, events }.run(paced, beginning)
+    let (from, was_stopped) = (Time::ZERO, false);
+    Runner { engine, driver, journal, is_simulated, was_stopped, from, events }.run(paced, beginning)
 }
 
 /// Capabilities of a driver, with those of the person who answers at the page of the run.
@@ -290,7 +291,7 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
         SavedDriver::Simulator(saved) => Some(saved.scene()?),
         SavedDriver::Process { .. } => session.and_then(|opened| opened.scene),
     };
-    let (mut begun, mut has_noticed) = (false, false);
+    let (mut begun, mut has_noticed, mut was_stopped) = (false, false, false);
     for (number, entry) in entries.iter().enumerate() {
         let differs = |why: String| CliError::Message(format!("entry {number} of the journal: {why}"));
         match replay.take(entry) {
@@ -317,6 +318,7 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
         paced.past(replay.now(), replay.effects());
         if let JournalEntry::Step(step) = entry {
             begun |= step.event == Some(Event::Begin);
+            was_stopped |= step.event == Some(Event::Stop);
             has_noticed |= matches!(step.event, Some(Event::Noticed { .. }));
         }
     }
@@ -359,6 +361,7 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
             })?;
             let missing = capabilities(&driver, has_person).missing(replay.engine().graph());
             if !missing.is_empty() {
+                note_moving();
                 return Err(motet::Error::Lacking(missing).into());
             }
             events.extend(driver.catch_up(&ledger, &instance, from));
@@ -392,7 +395,7 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
         &mut *driver
     };
     let beginning = page.map(|page| (page, Beginning::Entry(entries.len() as u64 + 1)));
-    let runner = Runner { engine, driver, journal: Some(writer), is_simulated, from, events };
+    let runner = Runner { engine, driver, journal: Some(writer), is_simulated, was_stopped, from, events };
     runner.run(paced, beginning)
 }
 

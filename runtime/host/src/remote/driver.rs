@@ -205,6 +205,9 @@ impl RemoteDriver {
             self.ask_on(&link, &call, within, &mut early)?.ok_or(LinkError::Mute(within))?;
         }
         self.welcome = welcome;
+        if let RunTime::Own { stall, .. } = &mut self.time {
+            *stall = None;
+        }
         // Whoever is called again goes on with the same run.
         self.hello.resumed = true;
         self.heard_at = Instant::now();
@@ -414,12 +417,19 @@ impl RemoteDriver {
         for (&goal, open) in &ledger.goals {
             self.goals.started(goal, &open.command.primitive);
         }
+        let is_stopping = |open: &OpenGoal| matches!(open.told, Some(Effect::SafeStop { .. }));
+        let stopping = || ledger.goals.iter().filter(|(_, open)| is_stopping(open)).map(|(goal, _)| *goal);
+        self.goals.stopping.extend(stopping());
         let told = self.status(ledger.goals.keys().copied().collect()).unwrap_or_else(|why| {
             self.log.note(&format!("no status: {why}"));
             StatusResult { goals: Vec::new() }
         });
         let states: BTreeMap<GoalId, GoalStatus> =
             told.goals.into_iter().map(|told| (told.goal, told.state)).collect();
+        // They are asked to stop again, unless they have.
+        stopping().for_each(|goal| {
+            self.goals.stopping.remove(&goal);
+        });
         let is_same = self.welcome().instance == instance;
         let mut events = Vec::new();
         for (&goal, open) in &ledger.goals {
@@ -454,7 +464,7 @@ impl RemoteDriver {
                 }
                 // Whoever is asked again for a safe stop brings it about, also for what was started by
                 // another.
-                Some(GoalStatus::Unknown) | None if matches!(open.told, Some(Effect::SafeStop { .. })) => {
+                Some(GoalStatus::Unknown) | None if is_stopping(open) => {
                     self.say_again(now, goal, open);
                 }
                 Some(GoalStatus::Unknown) | None => events.push(DriverEvent::Lost { goal }),

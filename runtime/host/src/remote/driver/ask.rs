@@ -15,7 +15,9 @@ use std::time::{Duration, Instant};
 
 /// Difference of times that a driver's rounding may make.
 const SLACK: Time = Time::from_nanos(1_000);
-/// Answers that stop short of the time asked for, without a report, after which a driver is of no use.
+/// Time by which a clock that is asked to advance gets on, or its driver reports something.
+const LEAST_STEP: Time = Time::from_nanos(1_000_000);
+/// Answers in a row with less, after which a driver is of no use.
 const MOST_STALLS: u32 = 100;
 
 impl RemoteDriver {
@@ -167,7 +169,8 @@ impl RemoteDriver {
         for (at, _) in &mut self.outbox {
             *at = now;
         }
-        let stall = (!is_over && self.outbox.is_empty()).then(|| {
+        let is_stalled = !is_over && self.outbox.is_empty() && now < before.after(LEAST_STEP);
+        let stall = is_stalled.then(|| {
             let Stall { answers, since } = stall.unwrap_or(Stall { answers: 0, since: Instant::now() });
             Stall { answers: answers + 1, since }
         });

@@ -13,7 +13,7 @@ pub(super) enum RunTime {
     Own { now: Time, stall: Option<Stall> },
 }
 
-/// Answers to `advance` in a row that stop short of the time asked for and bring no report.
+/// Answers to `advance` in a row after which the clock has hardly got on, without a report.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stall {
     pub(super) answers: u32,
