@@ -157,6 +157,7 @@ fn check(args: &CheckArgs, report: &mut Report) -> Result<Exit, CliError> {
         ));
     }
     tally.print(&checker.sessions.into_projects(), &inputs.skipped);
+    let is_refused = args.deny_deferred && tally.is_deferred();
     if args.fixes.diff {
         let fixes = count_irregular(tally.fixed, "fix", "fixes");
         let rest = match report.errors() {
@@ -164,13 +165,13 @@ fn check(args: &CheckArgs, report: &mut Report) -> Result<Exit, CliError> {
             errors => format!("; {} would be left", count(errors, "error")),
         };
         note(&format!("{fixes} would be applied to {}{rest}", count(tally.documents, "document")));
-        return Ok(if tally.fixed + report.errors() > 0 { Exit::Findings } else { Exit::Success });
+        let is_refused = is_refused || tally.fixed + report.errors() > 0;
+        return Ok(if is_refused { Exit::Findings } else { Exit::Success });
     }
     if args.fixes.is_fixing() {
         note(&format!("applied {}", count_irregular(tally.fixed, "fix", "fixes")));
     }
     note(&format!("checked {}: {}", count(tally.documents, "document"), report.tally()));
-    let is_refused = args.deny_deferred && tally.is_deferred();
     Ok(if report.errors() > 0 || is_refused { Exit::Findings } else { Exit::Success })
 }
 

@@ -202,14 +202,17 @@ impl OperatorInput {
 }
 
 /// Sends each line of an input until its end. What is no UTF-8 is replaced; of a line that is too long for a
-/// request, only the beginning is sent, which is too long as well.
+/// request, only the beginning is sent, which is too long as well and is refused.
 fn send_lines(mut input: impl BufRead, lines: &Sender<String>) {
     let mut line = Vec::new();
     while input.by_ref().take(MAX_REQUEST as u64 + 1).read_until(b'\n', &mut line).is_ok_and(|read| read > 0)
     {
-        let is_whole = line.ends_with(b"\n") || input.skip_until(b'\n').is_ok();
-        let text = String::from_utf8_lossy(line.trim_ascii_end()).into_owned();
-        if !is_whole || lines.send(text).is_err() {
+        let is_cut = line.len() > MAX_REQUEST && !line.ends_with(b"\n");
+        if is_cut && input.skip_until(b'\n').is_err() {
+            return;
+        }
+        let text = String::from_utf8_lossy(if is_cut { &line } else { line.trim_ascii_end() });
+        if lines.send(text.into_owned()).is_err() {
             return;
         }
         line.clear();

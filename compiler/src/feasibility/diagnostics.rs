@@ -98,7 +98,7 @@ macro_rules! refusals {
             TooSlow("M0611", Warning) { callee: SmolStr, takes: f64, within: f64 }
             message(m) {
                 let TooSlow { callee, takes, within, .. } = m;
-                format!("the path of `{callee}` takes {takes} s, and the step may take {within} s")
+                format!("the path of `{callee}` takes {takes} s, but the step may take only {within} s")
             }
             help(m) { Some(format!("give it more time: `within {} s`", m.takes)) }
             about(m) { Some(About { primitive: Some(m.callee.clone()), ..About::default() }) }

@@ -55,7 +55,7 @@ impl MotionChecker<'_> {
         let unplaced = || self.geometry.unplaced();
         let unknown = before.lost.clone().or_else(unplaced);
         let (mut witness, mut unknown, mut refused, mut is_refused) = (None, unknown, None, true);
-        let (mut warned, mut is_all_caught) = (None, before.lost.is_none());
+        let (mut warned, mut slow, mut is_all_caught) = (None, None, before.lost.is_none());
         for mut possible in before.known {
             let (regions, unplaced) = self.kept(id, call, &possible);
             unknown = unknown.or(unplaced);
@@ -68,7 +68,7 @@ impl MotionChecker<'_> {
                     if witness.is_none() {
                         let machine = self.geometry.machine();
                         let found = graph_witness(machine, &possible.at.world, motion, call.manner);
-                        warned = warned.or_else(|| self.too_slow(id, call, def, &found));
+                        slow = slow.or_else(|| self.too_slow(id, call, def, &found));
                         let end = next.known.first().filter(|_| next.lost.is_none());
                         let leaves = end.map(|end| leaves(machine, &found, motion, &end.at.world.robot));
                         witness = Some((Box::new(found), leaves.map(Box::new)));
@@ -124,7 +124,7 @@ impl MotionChecker<'_> {
         for possible in &mut after.known {
             possible.at = self.geometry.keeping(&possible.at, Vec::new());
         }
-        self.found(id, Some(verdict), refused.or(warned));
+        self.found(id, Some(verdict), refused.or(warned).or(slow));
         self.worlds = after;
     }
 

@@ -29,7 +29,8 @@ const TOO_SLOW: &str = "M0611";
 const SLACK: f64 = 1.5;
 
 impl Planned {
-    /// The policy with a deadline for each step without one whose path takes longer than the step may.
+    /// The policy with a deadline for each step of its own without one whose path takes longer than the step
+    /// may; as it is if it may then take too long.
     pub(crate) fn with_time(self, session: &Session) -> Self {
         let nodes = self.compiled.graph.iter().flat_map(|graph| &graph.nodes);
         let paths: BTreeMap<&str, f64> = nodes
@@ -41,16 +42,22 @@ impl Planned {
             .collect();
         let slow = self.compiled.diagnostics.iter().filter(|said| said.code.0 == TOO_SLOW);
         let mut deadlines: Vec<(usize, f64)> = slow
-            .filter(|said| self.text.get(said.span.range()).is_some_and(|step| step.ends_with(')')))
-            .filter_map(|said| Some((said.span.end as usize, *paths.get(said.path.as_str())?)))
+            .filter_map(|said| {
+                let step = self.text.get(said.span.range())?;
+                // Behind the call stand its manner, its deadline and its retries.
+                let (call, rest) = step.split_at_checked(step.rfind(')')? + 1)?;
+                let retries = rest.find(" retry ").unwrap_or(rest.len());
+                let at = said.span.start as usize + call.len() + retries;
+                (!rest.contains(" within ")).then_some((at, *paths.get(said.path.as_str())?))
+            })
             .collect();
         if deadlines.is_empty() {
             return self;
         }
-        deadlines.sort_unstable_by_key(|(end, _)| std::cmp::Reverse(*end));
+        deadlines.sort_unstable_by_key(|(at, _)| std::cmp::Reverse(*at));
         let mut text = self.text.clone();
-        for (end, takes) in deadlines {
-            text.insert_str(end, &format!(" within {} s", (takes * SLACK).ceil()));
+        for (at, takes) in deadlines {
+            text.insert_str(at, &format!(" within {} s", (takes * SLACK).ceil()));
         }
         let parsed = motet_syntax::read(&Source::new("plan.motet", text.as_str()), FileId(0));
         let compiled = session.compile(&parsed, None);

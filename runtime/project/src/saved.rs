@@ -202,7 +202,7 @@ impl SavedSimulator {
         self.profile.check().map_err(|error| error.to_string())?;
         match &self.eye {
             Some(camera) if !camera.is_possible() => {
-                Err("the camera is at no place that a robot can have".to_owned())
+                Err("the position or the angles of the camera are out of range".to_owned())
             }
             Some(_) | None => Ok(()),
         }

@@ -169,15 +169,22 @@ pub const MAX_REQUEST: usize = 4096;
 ///
 /// The part that is not understood, not there, or not clear.
 pub fn understand(request: &str, situation: &RequestContext<'_>) -> Result<Intent, RequestError> {
-    if request.len() > MAX_REQUEST {
-        let why = format!("a request may have at most {MAX_REQUEST} bytes; this one has {}", request.len());
-        return Err(RequestError::Unfit { why });
-    }
+    check_length(request)?;
     let found = bounded(|| understand_tokens(&engine::token::tokens(request), request, situation));
     found.unwrap_or_else(|| {
         let why = "the request is too involved for me: say it in shorter sentences".to_owned();
         Err(RequestError::Unfit { why })
     })
+}
+
+/// Checks that a request has at most [`MAX_REQUEST`] bytes.
+///
+/// # Errors
+///
+/// It has more.
+pub fn check_length(request: &str) -> Result<(), RequestError> {
+    let why = || format!("a request may have at most {MAX_REQUEST} bytes");
+    if request.len() > MAX_REQUEST { Err(RequestError::Unfit { why: why() }) } else { Ok(()) }
 }
 
 fn understand_tokens(

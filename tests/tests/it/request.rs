@@ -363,7 +363,7 @@ fn request_what_is_said_beside_a_request_is_taken_in() {
 fn request_long_request_is_not_read() {
     let long = "bring me the coke and ".repeat(5000);
     let why = puzzles("kitchen", &long).to_string();
-    assert_eq!(why, "a request may have at most 4096 bytes; this one has 110000");
+    assert_eq!(why, "a request may have at most 4096 bytes");
 }
 
 #[test]

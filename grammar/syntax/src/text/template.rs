@@ -126,18 +126,10 @@ impl TextScanner {
             | ExprKind::Call(_)
             | ExprKind::Field(..)
             | ExprKind::Arith(..) => Ok(expr),
-            ExprKind::Bool(_)
-            | ExprKind::Number(_)
-            | ExprKind::Quantity(..)
-            | ExprKind::Text(_)
-            | ExprKind::Template(_)
-            | ExprKind::Plain(_)
-            | ExprKind::Wrong(_)
-            | ExprKind::Any
-            | ExprKind::List(_) => Err("a literal needs no braces".into()),
             ExprKind::Not(_) | ExprKind::All(_) | ExprKind::AnyOf(_) | ExprKind::Compare(..) => {
                 Err("a condition has no value".into())
             }
+            _ => Err("a literal needs no braces".into()),
         }
     }
 

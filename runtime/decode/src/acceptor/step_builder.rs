@@ -188,27 +188,7 @@ impl Builder<'_> {
             NodeKind::Cannot => StepKind::End(self.end(EndKind::Cannot)),
             NodeKind::Replan => StepKind::End(self.end(EndKind::Replan)),
             // Not steps.
-            NodeKind::When
-            | NodeKind::Pause
-            | NodeKind::Restart
-            | NodeKind::Resume
-            | NodeKind::Catch
-            | NodeKind::OutOf
-            | NodeKind::Distance
-            | NodeKind::Finally
-            | NodeKind::Block
-            | NodeKind::Count
-            | NodeKind::IsEmpty
-            | NodeKind::Is(_)
-            | NodeKind::Not
-            | NodeKind::All
-            | NodeKind::Any
-            | NodeKind::Get(_)
-            | NodeKind::Field(_)
-            | NodeKind::Caught
-            | NodeKind::List
-            | NodeKind::Pose
-            | NodeKind::Group => fail().kind,
+            _ => fail().kind,
         }
     }
 

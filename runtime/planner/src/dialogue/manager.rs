@@ -23,6 +23,8 @@ use crate::planned::{PlanError, PlannedRequest, quoted};
 const MAX_ROUNDS: usize = 12;
 /// The most questions for one request.
 const MAX_QUESTIONS: usize = 6;
+/// Maximal number of questions that a person asks back before an answer.
+const MAX_ASIDES: usize = 20;
 /// Number of new plans for a failed step before the robot asks a person.
 const TRIES: usize = 2;
 /// The most places at which the robot looks for a thing that nobody knows.
@@ -424,9 +426,9 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
         let (doubtful, unknown) = (self.doubtful.take(), self.unknown.take());
         // What an answer says beside what is understood of it is for who plans.
         let is_told = self.planner.reads_answers();
-        let mut question = problem.clone();
+        let (mut question, mut asides) = (problem.clone(), 0);
         let (answer, meaning) = loop {
-            if self.task.questions >= MAX_QUESTIONS {
+            if self.task.questions >= MAX_QUESTIONS || asides >= MAX_ASIDES {
                 return Some(Outcome::Failed(problem));
             }
             self.task.questions += 1;
@@ -446,6 +448,8 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
                 let known = known.unwrap_or_else(|| problem::unknown(&back));
                 self.talk.memory.asked(self.now, &answer, Some(&known));
                 self.watcher.answered(&answer, Some(&known));
+                self.task.questions -= 1;
+                asides += 1;
                 continue;
             }
             if meaning != Answer::NotUnderstood || is_told {

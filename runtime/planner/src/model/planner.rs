@@ -380,6 +380,7 @@ impl ModelPlanner<'_> {
 
 impl Planner for ModelPlanner<'_> {
     fn plan(&mut self, ask: &PlanRequest<'_>) -> Result<PlannedRequest, PlanError> {
+        motet_requests::check_length(ask.request)?;
         self.plan_in(ask, ChatContext::default())
     }
 
@@ -388,6 +389,9 @@ impl Planner for ModelPlanner<'_> {
     }
 
     fn begin(&mut self, ask: &PlanRequest<'_>) -> bool {
+        if motet_requests::check_length(ask.request).is_err() {
+            return false;
+        }
         let (owned, kept) = (OwnedRequest::of(ask), self.ready.clone());
         let (tokens, surface, checks) = (self.settings.tokens, self.settings.surface, self.settings.checks);
         let write = move || {
