@@ -31,7 +31,7 @@ pub(crate) struct Cell {
     pub(crate) dependents: Vec<u32>,
     /// Number of watches and waits that need it kept current.
     pub(crate) watchers: u32,
-    /// It is watched and was reported since the watch began.
+    /// It is watched, and its driver knows it by the last report since the watch began.
     pub(crate) live: bool,
     /// True if the robot can observe it.
     pub(crate) observable: bool,

@@ -143,7 +143,8 @@ impl Beliefs {
 
     fn take(&mut self, id: CellId, answer: Answer, now: Time) {
         let Some(cell) = self.cell_mut(id) else { return };
-        cell.live = cell.watchers > 0;
+        // Of what its driver cannot tell, it does not report the changes.
+        cell.live = cell.watchers > 0 && answer != Answer::Unknown;
         let query = cell.query.clone();
         if let crate::query::Query::Fact { fluent, args } = &*query {
             let value = truth_of(&answer);
