@@ -128,6 +128,12 @@ impl Prover<'_> {
             let may_hold = |known: TruthSet| if of { known.yes.is_some() } else { known.no.is_some() };
             let Some(key) = self.key(fact, CallFrame::default()) else { continue };
             let atom = (fact.fluent, key);
+            if of && key.is_pattern() {
+                // Each of them may drop alone.
+                self.state.facts.entries(fact.fluent, key, |key, known| {
+                    held.extend(may_hold(known).then_some((fact.fluent, key)));
+                });
+            }
             // A name may be that of the thing which is held.
             let named = || self.has_symbol(fact.fluent, key).then(|| self.instances(atom));
             if may_hold(self.evaluate(part, CallFrame::default()))
@@ -171,9 +177,16 @@ impl Prover<'_> {
             // It was in the hand from the start.
             made.extend(self.library.lang_items.free.map(|free| unknown((free, FactKey::ALL))));
         }
-        made.extend(held.iter().copied().map(unknown));
-        self.unsettle(&made, cause);
         let (fluent, key) = seen;
+        // A pattern stands for things of which one is seen, unless it says of others that they are held.
+        let is_told = |(fluent, pattern): &&Atom| {
+            !pattern.is_pattern()
+                || key.is_pattern()
+                || self.held_value(*fluent) == Some(false)
+                || self.state.facts.get(*fluent, *pattern).yes.is_some()
+        };
+        made.extend(held.iter().filter(is_told).copied().map(unknown));
+        self.unsettle(&made, cause);
         let is_free = self.held_value(fluent) == Some(false);
         // Which of several hands is free is not known.
         if !(is_free && key.is_pattern()) {

@@ -319,7 +319,7 @@ impl<'d> World<'d> {
             return;
         }
         for cell in self.asked(query).unwrap_or_default() {
-            if self.state.get(cell) == Some(&true) {
+            if self.state.get(cell) == Some(&true) && chance(&mut self.dice, 70) {
                 for other in self.made_with.remove(&cell).unwrap_or_default() {
                     let truth = chance(&mut self.dice, 50);
                     self.flip(other, truth);

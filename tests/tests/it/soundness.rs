@@ -603,6 +603,26 @@ fn soundness_what_branches_only_observe_is_not_known_behind_them() {
     assert_eq!(verdicts("use_both", policy), [Verdict::Deferred; 2]);
 }
 
+/// What a driver cannot see it does not report, although it is watched.
+#[test]
+fn soundness_an_effect_unsettles_what_is_watched_and_never_seen() {
+    let policy = "policy p { monitor when not f(a) for 9 s then fail during { make(a) shake(a) } use(a) }";
+    let asked = requests(policy, &mut |effect| honest(effect, |_| None));
+    assert!(asked.iter().any(|said| said.starts_with("observe f(a)")), "{asked:?}");
+}
+
+/// Of two things in the hands one may drop, and the other still answers the test.
+#[test]
+fn soundness_one_of_several_held_things_may_drop_alone() {
+    let domain = "fluent holding(o: Object)\nentity b: Object\naction lift(o: Object)\n    makes holding(o)\n\
+                  action swing(o: Object)\n    needs holding(o)\n";
+    let policy = format!("{domain}policy p {{ lift(a) lift(b) if holding(any) {{ swing(a) }} }}");
+    assert_eq!(verdicts("swing", &policy), [Verdict::Deferred]);
+    let alone =
+        format!("{domain}initially not holding(any)\npolicy p {{ lift(a) if holding(any) {{ swing(a) }} }}");
+    assert_eq!(verdicts("swing", &alone), [Verdict::Proven]);
+}
+
 /// Each of two branches makes a fact on some of its paths.
 #[test]
 fn soundness_what_branches_may_make_is_not_made_behind_them() {

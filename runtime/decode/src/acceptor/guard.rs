@@ -346,13 +346,7 @@ impl Machine {
     pub(crate) fn list(&mut self, state: &State, words: &WordList) -> (u32, u32) {
         let mut call = match words.role {
             WordRole::Argument(_) => self.call_so_far(state.event),
-            WordRole::Callable
-            | WordRole::Fluent
-            | WordRole::Of
-            | WordRole::Alike
-            | WordRole::Head
-            | WordRole::Keyword
-            | WordRole::Free => None,
+            _ => None,
         };
         let site = call.as_ref().and_then(|(callable, _, before)| {
             let site = self.site(state, *before);

@@ -181,16 +181,7 @@ impl Machine {
                 }
                 only = Some(other);
             }
-            Op::Fork { .. }
-            | Op::Text { .. }
-            | Op::Name(_)
-            | Op::Number(_)
-            | Op::Action(_)
-            | Op::Call(_)
-            | Op::Gives { .. }
-            | Op::Jump(_)
-            | Op::Return
-            | Op::Accept => return None,
+            _ => return None,
         }
         only
     }
