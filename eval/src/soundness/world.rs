@@ -318,10 +318,13 @@ impl<'d> World<'d> {
         if !is_open || fluent != HOLDING || !chance(&mut self.dice, 50) {
             return;
         }
+        let holding = self.domain.fluent(HOLDING);
+        let held = holding.map_or_else(Vec::new, |holding| self.domain.cells(holding, &[None]));
         for cell in self.asked(query).unwrap_or_default() {
             if self.state.get(cell) == Some(&true) && chance(&mut self.dice, 70) {
                 for other in self.made_with.remove(&cell).unwrap_or_default() {
-                    let truth = chance(&mut self.dice, 50);
+                    // Nothing is taken up by itself.
+                    let truth = !held.contains(&other) && chance(&mut self.dice, 50);
                     self.flip(other, truth);
                 }
                 self.flip(cell, false);
