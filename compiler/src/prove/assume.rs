@@ -108,6 +108,11 @@ impl Prover<'_> {
             self.forget_paths(condition);
             self.drop_held(&held, *seen, cause);
             if self.narrow(condition, outcome, cause, frame) {
+                let (fluent, key) = *seen;
+                if held.iter().any(|(of, wide)| *of == fluent && wide.covers(key) && *wide != key) {
+                    // Which of those that a pattern stands for has dropped is not seen.
+                    self.state.facts.set(fluent, key, TruthSet::open(cause));
+                }
                 self.proof.drops.insert((id, outcome.truth()));
                 paths.push(self.state.facts.delta(here));
             }

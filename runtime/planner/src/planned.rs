@@ -29,8 +29,7 @@ const TOO_SLOW: &str = "M0611";
 const SLACK: f64 = 1.5;
 
 impl Planned {
-    /// The policy with a deadline for each step of its own without one whose path takes longer than the step
-    /// may; as it is if it may then take too long.
+    /// The policy with a deadline for each of its own steps whose path takes longer than the step may.
     pub(crate) fn with_time(self, session: &Session) -> Self {
         let nodes = self.compiled.graph.iter().flat_map(|graph| &graph.nodes);
         let paths: BTreeMap<&str, f64> = nodes

@@ -292,7 +292,6 @@ impl FaultSchedule {
             match &fault.then {
                 CallFaultKind::Fails(failure) => fate.fails = Some(failure.clone()),
                 CallFaultKind::Refuses(failure) => fate.refuses = Some(failure.clone()),
-                // Several may slow it down.
                 CallFaultKind::Slower(factor) => fate.slower = (fate.slower * factor).max(SLOWER),
                 CallFaultKind::Hangs => fate.hangs = true,
             }

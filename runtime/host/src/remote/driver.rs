@@ -418,8 +418,8 @@ impl RemoteDriver {
             self.goals.started(goal, &open.command.primitive);
         }
         let is_stopping = |open: &OpenGoal| matches!(open.told, Some(Effect::SafeStop { .. }));
-        let stopping = || ledger.goals.iter().filter(|(_, open)| is_stopping(open)).map(|(goal, _)| *goal);
-        self.goals.stopping.extend(stopping());
+        let stopping = ledger.goals.iter().filter(|(_, open)| is_stopping(open)).map(|(goal, _)| *goal);
+        self.goals.stopping.extend(stopping);
         let told = self.status(ledger.goals.keys().copied().collect()).unwrap_or_else(|why| {
             self.log.note(&format!("no status: {why}"));
             StatusResult { goals: Vec::new() }
@@ -427,9 +427,7 @@ impl RemoteDriver {
         let states: BTreeMap<GoalId, GoalStatus> =
             told.goals.into_iter().map(|told| (told.goal, told.state)).collect();
         // They are asked to stop again, unless they have.
-        stopping().for_each(|goal| {
-            self.goals.stopping.remove(&goal);
-        });
+        self.goals.stopping.retain(|goal| !ledger.goals.contains_key(goal));
         let is_same = self.welcome().instance == instance;
         let mut events = Vec::new();
         for (&goal, open) in &ledger.goals {
