@@ -236,11 +236,8 @@ impl Runner<'_> {
         };
         paced.finish(&end);
         shared.iter().for_each(|page| page.borrow_mut().finish());
-        let is_stopped = |page: &SharedPage| page.borrow().hub().is_stopped();
-        let is_asked = self.was_stopped
-            || is_interrupted()
-            || paced.view.is_closed()
-            || shared.as_ref().is_some_and(is_stopped);
+        let by_page = shared.as_ref().is_some_and(|page| page.borrow().hub().is_stopped());
+        let is_asked = self.was_stopped || is_interrupted() || paced.view.is_closed() || by_page;
         if end == RunEnd::Interrupted && !is_asked {
             note("the driver ended a step as interrupted, although nobody had asked for that");
             return Ok(Exit::Failed);

@@ -356,9 +356,7 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
     let driver: Box<dyn Driver> = match (saved, simulator) {
         (SavedDriver::Process { address, instance, .. }, _) => {
             let hello = Hello { resumed: true, ..Hello::of(replay.engine().graph(), &run) };
-            let mut driver = connect(&address.into(), hello, from).inspect_err(|_| {
-                note_moving();
-            })?;
+            let mut driver = connect(&address.into(), hello, from).inspect_err(|_| _ = note_moving())?;
             let missing = capabilities(&driver, has_person).missing(replay.engine().graph());
             if !missing.is_empty() {
                 note_moving();

@@ -412,7 +412,7 @@ impl Prover<'_> {
         }
     }
 
-    fn may_be_same(&self, params: &[(SmolStr, Ty)], a: FactKey, b: FactKey) -> bool {
+    pub(super) fn may_be_same(&self, params: &[(SmolStr, Ty)], a: FactKey, b: FactKey) -> bool {
         params.iter().enumerate().all(|(index, (_, ty))| {
             let (one, two) = (a.arg(index), b.arg(index));
             one == two

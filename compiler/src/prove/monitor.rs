@@ -189,7 +189,15 @@ impl<'a> Prover<'a> {
             let Some(key) = self.key(fact, CallFrame::default()).filter(|_| !is_derived) else { continue };
             let value = TruthSet::open(Cause::step(id));
             let row = |(fluent, key)| Volatile { fluent, key, value, when: None };
-            self.state.volatile.extend(self.instances((fact.fluent, key)).into_iter().map(row));
+            let mut atoms = self.instances((fact.fluent, key));
+            // What is known of other names may be about the same.
+            let params = self.library.fluent(fact.fluent).map_or(&[][..], |def| &def.params);
+            self.state.facts.written_parts(fact.fluent, |other| {
+                if self.has_symbol(fact.fluent, other) && self.may_be_same(params, key, other) {
+                    atoms.push((fact.fluent, other));
+                }
+            });
+            self.state.volatile.extend(atoms.into_iter().map(row));
         }
     }
 

@@ -611,6 +611,16 @@ fn soundness_an_effect_unsettles_what_is_watched_and_never_seen() {
     assert!(asked.iter().any(|said| said.starts_with("observe f(a)")), "{asked:?}");
 }
 
+/// The world changes a watched fact of one name, and another name may be that of the same thing.
+#[test]
+fn soundness_what_is_watched_of_one_name_may_change_for_another() {
+    let domain = "entity b: Object\nperception find(what: Text) -> Object\n    makes f(result)\n";
+    let body = "monitor when f(n) for 2 s then fail during { wait 2 s use(m) }";
+    let named = "let m = find(\"x\") let n = choose(\"Which?\", [a, b])";
+    let policy = format!("{domain}policy p {{ {named} {body} }}");
+    assert_eq!(verdicts("use", &policy), [Verdict::Deferred]);
+}
+
 /// Of two things in the hands one may drop, and the other still answers the test.
 #[test]
 fn soundness_one_of_several_held_things_may_drop_alone() {

@@ -212,17 +212,8 @@ impl ToolName {
 
     /// True for a tool that needs the driver.
     pub(super) const fn needs_driver(self) -> bool {
-        match self {
-            Self::RunPolicy | Self::SwapPolicy | Self::Stop | Self::RunStatus | Self::AnswerQuestion => true,
-            Self::Robots
-            | Self::Scene
-            | Self::Primitives
-            | Self::CheckPolicy
-            | Self::Explain
-            | Self::Feasible
-            | Self::Plan
-            | Self::SimulatePolicy => false,
-        }
+        use ToolName::{AnswerQuestion, RunPolicy, RunStatus, Stop, SwapPolicy};
+        matches!(self, RunPolicy | SwapPolicy | Stop | RunStatus | AnswerQuestion)
     }
 
     const fn description(self) -> &'static str {
