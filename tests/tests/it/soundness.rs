@@ -603,7 +603,7 @@ fn soundness_what_branches_only_observe_is_not_known_behind_them() {
     assert_eq!(verdicts("use_both", policy), [Verdict::Deferred; 2]);
 }
 
-/// What a driver cannot see it does not report, although it is watched.
+/// A driver does not report what it cannot see, even if the engine watches it.
 #[test]
 fn soundness_an_effect_unsettles_what_is_watched_and_never_seen() {
     let policy = "policy p { monitor when not f(a) for 9 s then fail during { make(a) shake(a) } use(a) }";

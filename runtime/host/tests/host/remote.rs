@@ -486,7 +486,8 @@ fn remote_driver_whose_clock_does_not_get_on_is_gone() {
         }));
         let (mut driver, told) = connect(address).unwrap();
         let (at, event) = driver.advance(Time::from_secs(1.0)).unwrap();
-        assert_eq!((at < Time::from_secs(0.1), event), (true, DriverEvent::DriverLost));
+        assert_eq!(event, DriverEvent::DriverLost);
+        assert!(at <= Time::from_secs(step * 101.0), "{at}");
         assert!(told.notes.borrow()[0].contains("s, not at 0.5"), "{:?}", told.notes);
     }
 }
