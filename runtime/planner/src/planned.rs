@@ -1,7 +1,5 @@
 //! Results of planning: a policy that passed the check, or the reason why there is none.
 
-use std::collections::BTreeMap;
-
 use motet_compiler::plan::NoPlan;
 use motet_compiler::{Compiled, Session};
 use motet_graph::NodeKind;
@@ -31,14 +29,11 @@ const SLACK: f64 = 1.5;
 impl Planned {
     /// The policy with a deadline for each of its own steps whose path takes longer than the step may.
     pub(crate) fn with_time(self, session: &Session) -> Self {
-        let nodes = self.compiled.graph.iter().flat_map(|graph| &graph.nodes);
-        let paths: BTreeMap<&str, f64> = nodes
-            .filter_map(|node| {
-                let NodeKind::Call(call) = &node.kind else { return None };
-                let path = &call.motion.as_ref()?.witness.as_ref()?.path;
-                Some((node.path.as_str(), path.last()?.at))
-            })
-            .collect();
+        let takes = |step: &str| {
+            let node = self.compiled.graph.as_ref()?.nodes.iter().find(|node| node.path == step)?;
+            let NodeKind::Call(call) = &node.kind else { return None };
+            Some(call.motion.as_ref()?.witness.as_ref()?.path.last()?.at)
+        };
         let slow = self.compiled.diagnostics.iter().filter(|said| said.code.0 == TOO_SLOW);
         let mut deadlines: Vec<(usize, f64)> = slow
             .filter_map(|said| {
@@ -47,7 +42,7 @@ impl Planned {
                 let (call, rest) = step.split_at_checked(step.rfind(')')? + 1)?;
                 let retries = rest.find(" retry ").unwrap_or(rest.len());
                 let at = said.span.start as usize + call.len() + retries;
-                (!rest.contains(" within ")).then_some((at, *paths.get(said.path.as_str())?))
+                (!rest.contains(" within ")).then_some((at, takes(&said.path)?))
             })
             .collect();
         if deadlines.is_empty() {
