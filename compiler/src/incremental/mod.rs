@@ -407,6 +407,7 @@ impl IncrementalChecker {
             *scope_at_point = made.scope_at_point;
         }
         let Some(id) = made.id else { return (None, StepOutcome::default()) };
+        crate::limits::fill_in_bounds(program, first, library);
         let is_error = |said: &Diagnostic| said.severity == Severity::Error;
         let is_wrong = made.diagnostics.iter().any(is_error)
             || crate::limits::check_from(program, first, library).iter().any(is_error);

@@ -35,7 +35,7 @@ impl PolicyTemplate {
     #[must_use]
     pub fn new(session: &Session, name: &str) -> Option<Self> {
         let (library, environment) = session.parts();
-        let (program, made) = resolved(name, (library, environment))?;
+        let (mut program, made) = resolved(name, (library, environment))?;
         if made.diagnostics.iter().any(|said| said.severity == Severity::Error) {
             return None;
         }
@@ -48,6 +48,7 @@ impl PolicyTemplate {
                 _ => {}
             }
         }
+        crate::limits::fill_in_bounds(&mut program, 0, library);
         let heads = heads(&program, library);
         Some(Self { program, fluents, uses, calls, goes_on: made.goes_on, heads })
     }

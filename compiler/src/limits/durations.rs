@@ -15,15 +15,8 @@ pub(super) fn fill_in(
     limit: Option<f64>,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
-    // Children come after their parents, so backwards every block is known before the step that holds it.
-    for index in (0..program.steps.len()).rev() {
-        let Some(step) = program.steps.get(index) else { continue };
-        let bounds = of_step(&step.kind, program, library);
-        empty(&step.kind, step.span, diagnostics);
-        if let Some(step) = program.steps.get_mut(index) {
-            step.bounds = bounds;
-        }
-    }
+    fill_from(program, 0, library);
+    program.steps.iter().rev().for_each(|step| empty(&step.kind, step.span, diagnostics));
     if program.body.is_empty() {
         diagnostics.push(EmptyBlock { span: program.span, what: "policy" }.into());
     }
@@ -31,6 +24,18 @@ pub(super) fn fill_in(
     if let Some(limit) = limit.filter(|limit| greatest > *limit) {
         let (longest, limit) = (seconds(greatest), seconds(limit));
         diagnostics.push(TooLong { span: program.span, longest, limit }.into());
+    }
+}
+
+/// Fills in the bounds of the steps from `first` on.
+pub(crate) fn fill_from(program: &mut Program, first: usize, library: &Library) {
+    // Children come after their parents, so backwards every block is known before the step that holds it.
+    for index in (first..program.steps.len()).rev() {
+        let Some(step) = program.steps.get(index) else { continue };
+        let bounds = of_step(&step.kind, program, library);
+        if let Some(step) = program.steps.get_mut(index) {
+            step.bounds = bounds;
+        }
     }
 }
 

@@ -6,7 +6,7 @@ pub(crate) mod diagnostics;
 mod durations;
 
 pub(crate) use self::capabilities::check_robot_name;
-pub(crate) use self::durations::of_block as bounds_of;
+pub(crate) use self::durations::{fill_from as fill_in_bounds, of_block as bounds_of};
 use motet_syntax::Diagnostic;
 
 use crate::declare::Library;

@@ -1,5 +1,7 @@
 //! Token masks: which tokens of a vocabulary may come next.
 
+use std::sync::Arc;
+
 use motet_syntax::Syntax;
 use toktrie::{Recognizer, SimpleVob};
 
@@ -255,12 +257,18 @@ impl Machine {
     }
 
     /// The range and the digits so far, if a number begins or goes on here.
-    fn number(&self) -> Option<(NumberRange, Digits)> {
+    fn number(&mut self) -> Option<(NumberRange, Digits)> {
         let state = self.state();
-        let automaton = &self.context.automaton;
+        let context = Arc::clone(&self.context);
+        let automaton = &context.automaton;
         match automaton.op(state.op) {
-            Op::Number(range) if state.pos == 0 => Some((*range, Digits::default())),
-            Op::Number(range) => Some((*range, Digits::unpack((state.pos, state.lo, state.hi)))),
+            Op::Number(range) if state.pos == 0 => Some((self.range_of(&state, *range), Digits::default())),
+            Op::Number(range) => {
+                let digits = Digits::unpack((state.pos, state.lo, state.hi));
+                Some((self.range_of(&state, *range), digits))
+            }
+            // The number may be that of a step that is not in the log yet.
+            Op::Fork { .. } if self.bounds_times(&state) => None,
             Op::Fork { other, .. } => match automaton.behind_actions(*other) {
                 Op::Number(range) => Some((*range, Digits::default())),
                 Op::Fork { other, .. } => match automaton.op(*other) {

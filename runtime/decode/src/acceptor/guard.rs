@@ -10,7 +10,7 @@ use super::question::PAUSE;
 use super::word::BOUND;
 use crate::automaton::{BoundNames, CaughtField, Meaning, Op, OpId, WordList};
 use crate::grammar::{BlockRole, Guard, NodeKind, WordRole};
-use crate::subset::{MAX_CONDITION_DEPTH, MAX_NAME_CHARS, MAX_STEPS};
+use crate::subset::{MAX_CONDITION_DEPTH, MAX_NAME_CHARS, MAX_STEPS, NumberRange};
 
 impl Machine {
     fn site(&self, state: &State, event: Id) -> CallSite {
@@ -133,6 +133,49 @@ impl Machine {
             Guard::Loose => may_be_loose,
             Guard::NoTest => self.needs_no_test(state.event),
         }
+    }
+
+    /// The range of the number that is being written. A `wait` for a time may last as long as a monitor around
+    /// it needs to fire: where a longer one would be refuted, it ends before.
+    pub(super) fn range_of(&mut self, state: &State, range: NumberRange) -> NumberRange {
+        let is_delay =
+            self.arenas.entry(state.event).map(|said| said.event) == Some(Event::Open(NodeKind::Delay));
+        let Some(least) = is_delay.then(|| self.least_hold(state)).flatten() else { return range };
+        let longest = [Event::Number(range.greatest, range.decimals), Event::Close];
+        if self.verify_beside(state.event, &longest) {
+            return range;
+        }
+        NumberRange { greatest: range.greatest.min(least - 1), ..range }
+    }
+
+    /// A monitor around the open block may end the range of a time.
+    pub(super) fn bounds_times(&self, state: &State) -> bool {
+        self.least_hold(state).is_some()
+    }
+
+    /// The shortest time, in milliseconds, for which a condition of the monitors around the open block has to
+    /// hold; `None` if there is none.
+    fn least_hold(&self, state: &State) -> Option<i64> {
+        if !self.frame(state.frame).flags.has(Flags::SHARED) {
+            return None;
+        }
+        let (mut closed, mut hold, mut least) = (0usize, None, None::<i64>);
+        for said in self.arenas.back(state.event) {
+            match said.event {
+                Event::Close => closed += 1,
+                // What stands directly in a node that has ended.
+                Event::Number(units, _) if closed == 1 => hold = Some(units),
+                Event::Open(kind) => {
+                    if closed == 1 && kind == NodeKind::When {
+                        least = least.into_iter().chain(hold.filter(|units| *units > 0)).min();
+                    }
+                    hold = if closed == 1 { None } else { hold };
+                    closed = closed.saturating_sub(1);
+                }
+                _ => {}
+            }
+        }
+        least
     }
 
     /// The block may end here.

@@ -292,6 +292,7 @@ impl Machine {
                 Op::Text { arg } => return self.text(state, *arg, byte),
                 Op::Name(naming) => return self.name(state, *naming, byte),
                 Op::Number(range) => {
+                    let range = &self.range_of(&state, *range);
                     let digits = if state.pos == 0 {
                         Digits::default()
                     } else {

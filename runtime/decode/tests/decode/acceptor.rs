@@ -100,6 +100,34 @@ fn acceptor_opens_concurrent_calls_that_check() {
     assert!(open > 20 && closed > 20, "{open} open, {closed} closed");
 }
 
+/// What a step has made certain lasts through the next steps: one that takes as long as a monitor asks for is
+/// refused, also in a policy that is called. A `wait` may be shorter.
+#[test]
+fn acceptor_refuses_steps_that_outlast_a_condition() {
+    let session = session("hsr", "living_room");
+    let subset = Subset { syntax: Syntax::Text, ..subset(Modifiers::Default) };
+    let factory = AcceptorFactory::new(&session, subset);
+    let monitor = r#"policy p for hsr { monitor { when holding(any) for 0.7 s then cannot "no" } during {"#;
+    let pick = "go(cup) inspect(cup) pick(cup, auto)";
+    for (body, is_right) in [
+        (format!("{pick} wait 0.699 s"), true),
+        (format!("{pick} wait 0 s"), true),
+        (format!("{pick} wait 0.7 s"), false),
+        (format!("{pick} sequence s {{ wait 20 s }}"), false),
+        (format!("wait 20 s {pick}"), true),
+        (format!("{pick} go(sofa)"), false),
+        (r#"fetch("cup", user, book)"#.to_owned(), false),
+        (r#"clear_away("cup", vase, window)"#.to_owned(), false),
+    ] {
+        let text = format!("{monitor} {body} }} fail \"no\" }}");
+        let wrong = errors(&session, &text);
+        assert_eq!(wrong.is_empty(), is_right, "{text}: {wrong:#?}");
+        let mut acceptor = factory.acceptor(6000).unwrap();
+        let taken = acceptor.accept(text.as_bytes());
+        assert_eq!(taken == text.len(), is_right, "{}", &text[..taken]);
+    }
+}
+
 /// Of bytes that are taken together only the words that agree with them are judged: what may follow is the
 /// same as where each is taken alone, also after some of them were taken back.
 #[test]
