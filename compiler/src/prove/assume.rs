@@ -93,7 +93,7 @@ impl Prover<'_> {
     /// have dropped by itself.
     pub(super) fn assume_test(&mut self, id: StepId, condition: &Condition, outcome: Outcome) -> bool {
         let (here, cause, frame) = (self.state.facts.mark(), Cause::step(id), CallFrame::default());
-        let held = self.held_in(condition);
+        let held = self.held_in(id, condition);
         if held.is_empty() {
             return self.assume(condition, outcome, cause, frame);
         }
@@ -106,7 +106,7 @@ impl Prover<'_> {
         for seen in &held {
             self.back_to(here);
             self.forget_paths(condition);
-            self.drop_held(&held, *seen, cause);
+            self.drop_held(id, &held, *seen);
             if self.narrow(condition, outcome, cause, frame) {
                 let (fluent, key) = *seen;
                 if held.iter().any(|(of, wide)| *of == fluent && wide.covers(key) && *wide != key) {
@@ -124,15 +124,22 @@ impl Prover<'_> {
     }
 
     /// Facts in a condition that say that a hand holds something, and that a drop would make otherwise.
-    fn held_in(&self, condition: &Condition) -> Vec<Atom> {
-        let (mut held, mut rest) = (Vec::new(), vec![condition]);
+    fn held_in(&mut self, id: StepId, condition: &Condition) -> Vec<Atom> {
+        let (mut held, mut rest, mut filled) = (Vec::new(), vec![condition], None);
         while let Some(part) = rest.pop() {
             rest.extend(part.parts());
             let Condition::Fact(fact) = part else { continue };
             let Some(of) = self.held_value(fact.fluent) else { continue };
-            let may_hold = |known: TruthSet| if of { known.yes.is_some() } else { known.no.is_some() };
+            let is_held = |known: TruthSet| if of { known.yes.is_some() } else { known.no.is_some() };
             let Some(key) = self.key(fact, CallFrame::default()) else { continue };
             let atom = (fact.fluent, key);
+            // Where nothing is known, a step may have filled the hand.
+            let is_unknown = self.evaluate(part, CallFrame::default()).open.is_some();
+            let filled = is_unknown && {
+                let filled = filled.get_or_insert_with(|| self.filled_before(id));
+                filled.iter().flatten().any(|change| self.fills(change, atom))
+            };
+            let may_hold = |known: TruthSet| is_held(known) || filled && known.open.is_some();
             if of && key.is_pattern() {
                 // Each of them may drop alone.
                 self.state.facts.entries(fact.fluent, key, |key, known| {
@@ -150,6 +157,33 @@ impl Prover<'_> {
         held
     }
 
+    /// What each call makes that may have filled a hand before a step.
+    fn filled_before(&mut self, id: StepId) -> Vec<Vec<FactChange>> {
+        let (program, grips) = (self.program, self.grips());
+        let again = |kind: &StepKind| match kind {
+            StepKind::Repeat { .. } | StepKind::Each { .. } => true,
+            StepKind::Monitor { .. } | StepKind::Parallel { .. } => true,
+            _ => false,
+        };
+        let around: Vec<StepId> =
+            program.around(id).filter(|(_, step)| again(&step.kind)).map(|(around, _)| around).collect();
+        let may_run =
+            |grip: &StepId| *grip < id || program.around(*grip).any(|(outer, _)| around.contains(&outer));
+        let changes = |grip: StepId| {
+            let StepKind::Call(call) = &program.step(grip)?.kind else { return None };
+            Some(self.changes_of(call, &self.library.primitive(call.primitive)?.makes))
+        };
+        grips.iter().copied().filter(may_run).filter_map(changes).collect()
+    }
+
+    /// A change may be one that fills the hand of a fact.
+    fn fills(&self, change: &FactChange, (fluent, key): Atom) -> bool {
+        let is_open = || self.has_symbol(fluent, key) || self.has_symbol(fluent, change.key);
+        change.fluent == fluent
+            && self.held_value(fluent) == Some(change.truth)
+            && (is_open() || key.meets(change.key))
+    }
+
     /// The value that a fact of a fluent has while a hand holds something; `None` for other fluents.
     fn held_value(&self, fluent: Fluent) -> Option<bool> {
         let items = &self.library.lang_items;
@@ -159,20 +193,11 @@ impl Prover<'_> {
 
     /// Makes unknown all that the steps have made which may have filled a hand: the thing may be anywhere,
     /// and what was seen of one hand is known.
-    fn drop_held(&mut self, held: &[Atom], seen: Atom, cause: Cause) {
-        let program = self.program;
+    fn drop_held(&mut self, id: StepId, held: &[Atom], seen: Atom) {
+        let cause = Cause::step(id);
         let mut made = Vec::new();
-        for call in self.grips().iter().filter_map(|id| program.step(*id)) {
-            let StepKind::Call(call) = &call.kind else { continue };
-            let Some(def) = self.library.primitive(call.primitive) else { continue };
-            let changes = self.changes_of(call, &def.makes);
-            let may_be = |change: &FactChange| {
-                let is_same = |(fluent, key): &Atom| {
-                    let is_open = self.has_symbol(*fluent, *key) || self.has_symbol(*fluent, change.key);
-                    change.fluent == *fluent && (is_open || key.meets(change.key))
-                };
-                self.held_value(change.fluent) == Some(change.truth) && held.iter().any(is_same)
-            };
+        for changes in self.filled_before(id) {
+            let may_be = |change: &FactChange| held.iter().any(|atom| self.fills(change, *atom));
             if changes.iter().any(may_be) {
                 made.extend(changes);
             }

@@ -633,6 +633,17 @@ fn soundness_one_of_several_held_things_may_drop_alone() {
     assert_eq!(verdicts("swing", &alone), [Verdict::Proven]);
 }
 
+/// A step that fills a hand only under a condition may have done so, and what it held may drop.
+#[test]
+fn soundness_what_a_hand_may_hold_may_drop() {
+    let domain = "fluent holding(o: Object)\nentity b: Object\naction lift(o: Object)\n    makes holding(b) when f(b), ready(o)\n\
+                  fluent ready(o: Object)\naction swing(o: Object)\n    needs ready(o)\n";
+    let tested = format!("{domain}policy p {{ lift(a) if holding(any) {{ say(\"it holds\") }} swing(a) }}");
+    assert_eq!(verdicts("swing", &tested), [Verdict::Deferred]);
+    let before = format!("{domain}policy p {{ if holding(any) {{ say(\"it holds\") }} lift(a) swing(a) }}");
+    assert_eq!(verdicts("swing", &before), [Verdict::Proven]);
+}
+
 /// Each of two branches makes a fact on some of its paths.
 #[test]
 fn soundness_what_branches_may_make_is_not_made_behind_them() {
