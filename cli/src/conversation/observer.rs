@@ -4,6 +4,7 @@ use std::cell::RefCell;
 use std::cmp::Reverse;
 use std::rc::Rc;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use motet_graph::Graph;
 use motet_planner::builtin::PlannedRequest;
@@ -30,6 +31,9 @@ use crate::run_view::{Clock, view};
 use crate::runner::PacedView;
 use crate::view::live::SharedPage;
 use motet::page::source::PolicyText;
+
+/// The longest time for which a run waits for the policy of an instruction, if nobody could let it go on.
+const PLANNING: Duration = Duration::from_secs(60);
 
 /// Interval at which scheduled requests are checked.
 const REQUEST_INTERVAL: Time = Time::from_nanos(100_000_000);
@@ -58,8 +62,10 @@ pub(super) struct RunObserver<'a> {
     /// View of the policy before.
     older: Option<PacedView>,
     is_swapping: bool,
-    /// True while a person holds the run.
-    is_held: bool,
+    /// While a person holds the run, the time until which it waits if nobody is there any more.
+    held_until: Option<Instant>,
+    /// The last words were `wait`, and do not ask for another policy.
+    is_told_to_wait: bool,
     /// True once nobody could answer a question in the middle of a run.
     pub(super) is_unanswered: bool,
     /// Output of answers.
@@ -93,7 +99,8 @@ impl<'a> RunObserver<'a> {
             next: None,
             older: None,
             is_swapping: false,
-            is_held: false,
+            held_until: None,
+            is_told_to_wait: false,
             is_unanswered: false,
             out: Output::default(),
         }
@@ -181,7 +188,8 @@ impl DialogueObserver for RunObserver<'_> {
     }
 
     fn held(&mut self, is_held: bool) {
-        self.is_held = is_held;
+        let patience = if self.is_told_to_wait { Duration::ZERO } else { PLANNING };
+        self.held_until = is_held.then(|| Instant::now() + patience);
         note(if is_held { "  keeps still; `go on` lets it go on" } else { "  goes on" });
         self.go_below();
         self.write(if is_held { "held" } else { "proceeded" }, json!({}));
@@ -241,8 +249,10 @@ impl DialogueObserver for RunObserver<'_> {
 
     fn reached(&mut self, now: Time) -> RunControl {
         let control = self.view.as_mut().map_or(RunControl::Continue, |view| view.reached(now));
-        if self.is_held && self.scheduled.is_empty() && control == RunControl::Continue {
-            if self.operator.is_over() {
+        if let Some(until) = self.held_until.filter(|_| self.scheduled.is_empty())
+            && control == RunControl::Continue
+        {
+            if self.operator.is_over() && Instant::now() >= until {
                 note("  stopped: nobody is there who could let it go on");
                 return RunControl::Stop;
             }
@@ -273,6 +283,7 @@ impl DialogueObserver for RunObserver<'_> {
         note(&format!("> {}", escape(&line)));
         self.go_below();
         self.requested(&line);
+        self.is_told_to_wait = motet_requests::holds(&line);
         Some(line)
     }
 
@@ -291,7 +302,7 @@ impl DialogueObserver for RunObserver<'_> {
     }
 
     fn ended(&mut self, _now: Time, end: &RunEnd) {
-        self.is_held = false;
+        self.held_until = None;
         if let Some(mut view) = self.view.take() {
             view.finish(end);
         }

@@ -24,6 +24,18 @@ fn request(place: &Place, request: &str, flags: &[&str]) -> Ran {
     place.run_args(&args)
 }
 
+/// What was put into something is known to be there, and a drawer opens again with what moved along in it.
+#[test]
+fn conversation_remembers_what_was_put_into_something() {
+    let place = Place::new("talk_inside");
+    let lines = ["put the coke in the fridge", "where is the coke?", "what is in the fridge?"];
+    let told = "out:The coke can is in the refrigerator.";
+    talk(&place, "--speed max", &lines).check(0, &[told, told]);
+    let lines = "put the apple in the drawer\nopen the drawer\nbring me the apple";
+    let flags = format!("talk --robot hsr --scene kitchen {IDEAL} --speed max");
+    place.run_with(&flags, lines.as_bytes(), &[]).check(0, &["out:✓ open_drawer_1", "out:✓ bring_apple"]);
+}
+
 #[test]
 fn conversation_remembers_what_was_done_and_answers_questions() {
     let place = Place::new("talk_memory");
@@ -110,6 +122,12 @@ fn words_stop_and_hold_a_robot_at_every_speed() {
         ran.check(0, &["out:✓ handover(apple, user)"]);
         assert_eq!(ran.stderr.contains("keeps still"), pause == "pause", "{ran:#?}");
     }
+    // The run waits for a policy whose motions are searched, although nobody could let it go on.
+    let words = ["--say", "12s: bring me the apple instead", "--on-instruction", "pause"];
+    let flags = ["do", "bring me the coke", "--robot", "hsr", "--scene", "kitchen", "--profile", "ideal"];
+    let searched = [&flags[..], &["--speed", "max"], &words].concat();
+    let ran = place.run_args(&searched.iter().map(|flag| (*flag).to_owned()).collect::<Vec<_>>());
+    ran.check(0, &["err:keeps still", "out:✓ handover(apple, user)"]);
 }
 
 #[test]

@@ -91,7 +91,7 @@ impl Delta {
             other == fluent && pattern.covers(key)
         });
         let covering = covering.next_back().map(|(_, value)| *value);
-        if base.is_symbolic(fluent, key) && !key.is_pattern() {
+        if base.is_symbolic(fluent, key) {
             // Without an entry it is what all that it may be agree on.
             let open = TruthSet::NOTHING_KNOWN;
             return covering

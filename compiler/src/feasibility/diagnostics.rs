@@ -32,12 +32,16 @@ pub(crate) struct RefusedMotion {
 }
 
 fn message(told: &RefusedMotion) -> String {
-    let RefusedMotion { callee, motion, says, story, .. } = told;
-    format!("`{callee}` cannot perform `{motion}`: {says}{story}")
+    let RefusedMotion { callee, motion, says, story, is_certified, .. } = told;
+    if *is_certified {
+        format!("`{callee}` cannot perform `{motion}`: {says}{story}")
+    } else {
+        format!("no motion was found with which `{callee}` performs `{motion}`: {says}{story}")
+    }
 }
 
 fn help(told: &RefusedMotion) -> Option<String> {
-    let left = "not proven infeasible: the search found no motion, so it is checked again at run time";
+    let left = "this is not proven, so the engine checks the motion again at run time";
     match (&told.change, told.is_certified) {
         (Some(change), true) => Some(change.clone()),
         (Some(change), false) => Some(format!("{change}; {left}")),

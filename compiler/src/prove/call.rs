@@ -290,6 +290,9 @@ impl<'a> Prover<'a> {
         let is_caught = self.is_caught(def, need);
         if self.mode == Mode::Decide {
             if !is_caught {
+                if need.each.is_none() && self.is_entered(&need.condition, frame) {
+                    self.control.settled.get_or_insert(self.diagnostics.len());
+                }
                 self.count(Refuted::CODE);
             }
             return;
@@ -315,6 +318,18 @@ impl<'a> Prover<'a> {
         let frame = CallFrame { each: None, ..frame };
         self.notify(Problem::RefutedNeed { step: id, def, frame }, &mistake);
         self.diagnostics.push(mistake);
+    }
+
+    /// Returns whether each fact in a condition keeps its value at a join. One about a name that no step has
+    /// written is unknown there.
+    fn is_entered(&self, condition: &Condition, frame: CallFrame<'_>) -> bool {
+        let is_lost = |part: &Condition| {
+            let Condition::Fact(fact) = part else { return false };
+            let is_bare =
+                |key| self.has_symbol(fact.fluent, key) && self.state.facts.entry(fact.fluent, key).is_none();
+            self.key(fact, frame).is_none_or(is_bare)
+        };
+        !condition.any(&is_lost)
     }
 
     /// Returns true if a need compares a number of the thing itself, which no step can change, and a handler

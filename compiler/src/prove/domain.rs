@@ -281,6 +281,7 @@ impl<'a> Domain<'a> for Prover<'a> {
             return;
         }
         self.diagnostics.truncate(diagnostics);
+        self.control.settled = self.control.settled.filter(|index| *index < diagnostics);
         self.states_at_point.truncate(states_at_point);
     }
 

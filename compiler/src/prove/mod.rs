@@ -206,6 +206,8 @@ pub(crate) struct Control {
     rehearsals: usize,
     /// Visits of steps so far. Each counts once, and once more for each fact that a reaction may change.
     work: usize,
+    /// Index of the first finding that later rounds of a loop have too.
+    settled: Option<usize>,
     /// The step at which the proof was given up.
     given_up: Option<StepId>,
     errors: ErrorCount,

@@ -221,10 +221,12 @@ impl Prover<'_> {
     }
 
     /// Returns whether the answer is final: a need is refuted outside of a rehearsal. Later rounds of a loop
-    /// refute what an earlier one does, since they begin in all its states.
+    /// begin in all states of an earlier one, so they refute most of what it does.
     pub(crate) fn is_settled(&self) -> bool {
-        let counts = self.control.fixpoints == 0 || (self.target.grows && self.control.rehearsals == 0);
-        self.mode == Mode::Decide && counts && self.target.point.is_none() && self.is_refuted()
+        let lasts = || self.target.grows && self.control.rehearsals == 0 && self.control.settled.is_some();
+        let counts =
+            || self.is_exhausted() || if self.control.fixpoints == 0 { self.is_refuted() } else { lasts() };
+        self.mode == Mode::Decide && self.target.point.is_none() && counts()
     }
 
     pub(crate) fn is_refuted(&self) -> bool {
@@ -285,6 +287,7 @@ impl Prover<'_> {
         self.step(step);
         let permits = !self.is_refuted();
         self.diagnostics.clear();
+        self.control.settled = None;
         self.state.facts.back_to(mark);
         self.state.partitions = partitions;
         self.control.live = live;

@@ -49,6 +49,9 @@ motet_syntax::mistakes! {
     TooManySteps("M0212", Error) { limit: usize, branches: Option<(usize, &'static str)> }
     message(m) {
         match m.branches {
+            Some((_, "document")) => {
+                "the policies of the document have too many steps, with their sub-policies inlined".to_owned()
+            }
             Some((found, "parallel")) => {
                 format!("the `parallel` has {found} branches, but at most {} may run at once", m.limit)
             }
@@ -61,8 +64,8 @@ motet_syntax::mistakes! {
     help(m) {
         Some(match m.branches {
             Some((_, "parallel")) => "let some of them run one after the other".to_owned(),
-            Some(_) => "join some of them by `or`, or leave some out".to_owned(),
-            None => "use `repeat` or `each` instead of copies of steps".to_owned(),
+            Some((_, "monitor" | "keep")) => "join some of them by `or`, or leave some out".to_owned(),
+            Some(_) | None => "use `repeat` or `each` instead of copies of steps".to_owned(),
         })
     }
 

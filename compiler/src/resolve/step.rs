@@ -16,10 +16,14 @@ use crate::declare::diagnostics::{NotACondition, UnknownFailure};
 use crate::declare::elaborator::{Elaborator, Expected, ValueRole};
 use crate::declare::name::{Scope, ScopeMark, list, near};
 use crate::declare::unbound::Unbound;
+use crate::facts::effort;
 use crate::ir::{self, Binding, BindingId, BlockSlot, Condition, Program, StepId, StepPosition, Term, Ty};
 
 /// Maximal number of steps of a policy with its sub-policies inlined.
 pub const MAX_NODES: usize = 100_000;
+/// Weight of a step of a policy that is inlined, in the work of a document: each of its policies may inline
+/// all others.
+const INLINED: usize = 2 * effort::VISIT;
 /// Greatest nesting of blocks with those of the policies that are called: every stage descends into them.
 const MAX_DEPTH: usize = 4 * MAX_NESTING;
 /// Greatest number of branches of a parallel block, and of conditions of a monitor or rules of a `keep`: each
@@ -215,9 +219,14 @@ impl<'a> StepResolver<'a> {
 
     /// Reserves the next place in the arena, so that a parent precedes its children.
     pub(super) fn reserve(&mut self, span: Span, position: StepPosition) -> Option<StepId> {
-        if self.program.steps.len() >= MAX_NODES {
+        if self.inline.is_some() {
+            effort::spend(INLINED);
+        }
+        let is_used_up = self.inline.is_some() && effort::is_used_up();
+        if is_used_up || self.program.steps.len() >= MAX_NODES {
             if !self.full {
-                self.elaborator.report(TooManySteps { span, limit: MAX_NODES, branches: None });
+                let branches = is_used_up.then_some((0, "document"));
+                self.elaborator.report(TooManySteps { span, limit: MAX_NODES, branches });
             }
             self.full = true;
             return None;

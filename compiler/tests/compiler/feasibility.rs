@@ -241,7 +241,7 @@ fn what_a_search_did_not_find_is_a_warning_and_left_to_the_run() {
     let warned: Vec<_> = said.iter().filter(|it| it.code.to_string().starts_with("M06")).collect();
     for it in &warned {
         assert_eq!(it.severity, Severity::Warning);
-        assert!(it.help.as_ref().is_some_and(|help| help.contains("not proven infeasible")), "{it:?}");
+        assert!(it.help.as_ref().is_some_and(|help| help.contains("not proven")), "{it:?}");
     }
 }
 

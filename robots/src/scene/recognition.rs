@@ -17,6 +17,8 @@ pub const MOST_NEW: usize = 32;
 pub const MOST_LABEL: usize = 40;
 /// Category of every thing that the scene lacks: `the blue thing` is one of them.
 const THING: &str = "thing";
+/// Density of water in kg/m³.
+const WATER: f64 = 1000.0;
 /// Labels of people.
 const PEOPLE: [&str; 6] = ["person", "human", "man", "woman", "child", "face"];
 
@@ -83,17 +85,21 @@ impl Entity {
     }
 
     /// Makes a thing that a detector saw and the scene lacks: a person by its label, else an object. Sides
-    /// in m of 1 mm to 5 m make its shape.
+    /// in m of 1 mm to 5 m make its shape. A small object has the mass in kg of as much water, so that a hand
+    /// may try it; nothing is presumed of one of more than 1 kg.
     #[must_use]
     pub fn detected(id: SmolStr, label: &SmolStr, pose: Option<Placement>, extent: Option<[f64; 3]>) -> Self {
         let kind = if PEOPLE.contains(&label.as_str()) { kinds::PERSON } else { kinds::OBJECT };
         let is_solid = |sides: &[f64; 3]| sides.iter().all(|side| (0.001..=5.0).contains(side));
+        let extent = extent.filter(is_solid);
+        let mass = extent.map(|sides| sides.iter().product::<f64>() * WATER);
         Self {
             kind: kind.into(),
+            mass_kg: mass.filter(|mass| *mass <= 1.0 && kind == kinds::OBJECT),
             class: label.clone(),
             names: vec![label.clone()],
             categories: vec![SmolStr::new_static(THING)],
-            shape: extent.filter(is_solid).map(EntityShape::Box),
+            shape: extent.map(EntityShape::Box),
             pose,
             fixed: false,
             ..Self::place(id, Placement::default())

@@ -628,9 +628,23 @@ fn soundness_one_of_several_held_things_may_drop_alone() {
                   action swing(o: Object)\n    needs holding(o)\n";
     let policy = format!("{domain}policy p {{ lift(a) lift(b) if holding(any) {{ swing(a) }} }}");
     assert_eq!(verdicts("swing", &policy), [Verdict::Deferred]);
+    // The engine asks for it, although the hands hold something as before.
+    let both = policy.replace("policy p", "initially holding(a), holding(b)\npolicy p");
+    let asked = requests(&both, &mut |effect| honest(effect, |_| Some(true)));
+    assert!(asked.iter().any(|said| said.starts_with("observe holding(a)")), "{asked:?}");
     let alone =
         format!("{domain}initially not holding(any)\npolicy p {{ lift(a) if holding(any) {{ swing(a) }} }}");
     assert_eq!(verdicts("swing", &alone), [Verdict::Proven]);
+}
+
+/// A pattern about a name is unknown where no step has asked for it, although the world is closed.
+#[test]
+fn soundness_a_pattern_about_a_name_is_unknown_before_a_round_asks() {
+    let domain = "closed world\nentity b: Object\nfluent tied(o: Object, p: Object)\ninitially tied(b, b)\n\
+                  perception find(what: Text) -> Object\n    takes 1 s .. 2 s\n\
+                  action cut(o: Object)\n    needs not tied(any, o)\n";
+    let policy = format!("{domain}policy p {{ let m = find(\"thing\") repeat 2 {{ make(a) cut(m) }} }}");
+    assert_eq!(verdicts("cut", &policy), [Verdict::Deferred]);
 }
 
 /// A step that fills a hand only under a condition may have done so, and what it held may drop.

@@ -4,6 +4,8 @@
 use crate::common::tokens::{END, tokens};
 use crate::common::walks::{Dice, Ended, KINDS, of_kind, steps, walk, written};
 use crate::common::{SETTINGS, errors, session};
+use motet_compiler::Session;
+use motet_compiler::incremental::IncrementalChecker;
 use motet_compiler::signature::Type;
 use motet_decode::{AcceptorFactory, Grammar, Modifiers, Subset, Vocabulary, canonical};
 use motet_syntax::{FileId, Source, Syntax};
@@ -46,6 +48,7 @@ fn write_at_random(syntax: Syntax) {
                 assert!(text.len() <= budget, "{seed}: {} bytes of {budget}", text.len());
                 let wrong = errors(&session, &text);
                 assert!(wrong.is_empty(), "{robot} {scene} {seed}: {wrong:#?}\n{text}");
+                push_all(&session, &text, syntax);
                 all += 1;
                 lengths.push(steps(&text));
                 done += usize::from(!last_fails(&text));
@@ -60,6 +63,16 @@ fn write_at_random(syntax: Syntax) {
         "{all} walks, {} steps at the median, {done} end in done, {kinds:?}",
         lengths[lengths.len() / 2]
     );
+}
+
+/// A policy that checks is right step by step too.
+fn push_all(session: &Session, text: &str, syntax: Syntax) {
+    let parsed = motet_syntax::read(&Source::new("policy.json", text), FileId(7));
+    let policy = parsed.file.policies().next().unwrap();
+    let (mut checker, _) = IncrementalChecker::new(session, policy, syntax);
+    for step in &policy.body.steps {
+        assert!(checker.push(session, step), "step {} of {text}", checker.len());
+    }
 }
 
 /// Beside what runs at once many calls are asked in one proof: each is open exactly where it checks alone.

@@ -53,6 +53,21 @@ impl Beliefs {
         (answer, numbers)
     }
 
+    /// True if it is not known which one fact makes a pattern true: several may.
+    pub(crate) fn is_vague(&self, fluent: &str, args: &[Pattern]) -> bool {
+        let Some(facts) = self.fluents.get(fluent).filter(|_| args.contains(&Pattern::Any)) else {
+            return false;
+        };
+        let single = |id: CellId| match (&*self.cell(id)?.query, truth_of(&self.cell(id)?.answer)) {
+            (crate::query::Query::Fact { args, .. }, truth) if !args.contains(&Pattern::Any) => Some(truth),
+            _ => None,
+        };
+        let mut maybe = self.covered(fluent, args).filter_map(single).filter(|truth| *truth != Truth::False);
+        let is_one = maybe.next() == Some(Truth::True) && maybe.next().is_none();
+        let rest = facts.wides.iter().rev().find(|wide| covers(&wide.args, args));
+        !(is_one && rest.is_some_and(|rest| rest.answer == Answer::Truth(false)))
+    }
+
     /// True if what is believed of a fact was perhaps observed before the last effect on it.
     pub(crate) fn is_tainted(&self, fluent: &str, args: &[Pattern]) -> bool {
         let cell = self.find_fact(fluent, args).and_then(|id| self.cell(id));

@@ -358,7 +358,8 @@ impl Turn<'_> {
         }
         // A step may have filled a hand of which nothing is known.
         self.run.is_undone |= match (before, self.tested_hand(id)) {
-            (Some(Truth::True), held) => held != Some(Truth::True),
+            // Of several things that are held, one may have dropped.
+            (Some(Truth::True), held) => held != Some(Truth::True) || self.is_vague_hand(id),
             (Some(Truth::Unknown), held) => held == Some(Truth::False),
             (Some(Truth::False) | None, _) => false,
         };
@@ -381,6 +382,16 @@ impl Turn<'_> {
         match self.run.beliefs.cell(id).filter(|_| is_tested).map(|cell| &*cell.query) {
             Some(Query::Fact { fluent, args }) => hand(fluent, self.run.beliefs.fact(fluent, args).0),
             Some(Query::Measure { .. } | Query::Field { .. }) | None => None,
+        }
+    }
+
+    /// True if a fact about a hand leaves open which thing it holds.
+    fn is_vague_hand(&self, id: CellId) -> bool {
+        match self.run.beliefs.cell(id).map(|cell| &*cell.query) {
+            Some(Query::Fact { fluent, args }) if fluent == lang::fluents::HOLDING => {
+                self.run.beliefs.is_vague(fluent, args)
+            }
+            _ => false,
         }
     }
 

@@ -61,6 +61,8 @@ pub struct RemoteDriver {
     breaches: u32,
     heard_at: Instant,
     rate: LineRate,
+    /// Feedback of this second.
+    feedback: LineRate,
     said_at: Instant,
     /// It was asked for more than a sign of life since it said something.
     is_asked: bool,
@@ -140,6 +142,7 @@ impl RemoteDriver {
             breaches: 0,
             heard_at: Instant::now(),
             rate: LineRate::default(),
+            feedback: LineRate::default(),
             said_at: Instant::now(),
             is_asked: false,
             restarts: patience.restarts,

@@ -479,6 +479,8 @@ pub(crate) const MAX_KIND_BYTES: usize = 64;
 /// The most lines that a driver may say in a second of the wall clock. One that says more counts as gone:
 /// what is important would come too late.
 pub(crate) const MAX_LINES_A_SECOND: u32 = 20_000;
+/// The most feedback of a driver in a second of the wall clock that is shown and recorded.
+pub(crate) const MAX_FEEDBACK_A_SECOND: u32 = 200;
 /// The most promises that a driver may break in a run before it counts as gone.
 pub(crate) const MAX_BREACHES: u32 = 1_000;
 /// The most lines that wait to be heard, and the most that wait to be said.

@@ -5,7 +5,7 @@ use indexmap::IndexMap;
 use motet_compiler::{InitialFact, InitialState, Session};
 use motet_graph::{CallNode, Graph, Node, NodeKind, Value};
 use motet_requests::{Preference, ReportedLocation, RequestContext};
-use motet_robots::scene::{Entity, EntityShape, Grip, Placement, Scene};
+use motet_robots::scene::{Entity, EntityShape, Grip, Placement, Scene, Travel};
 use motet_runtime::{
     Engine, Pattern, PendingCleanup, Query, Snapshot, StartState, ToldSupport, ToldThing, Truth,
 };
@@ -205,6 +205,18 @@ impl Knowledge {
                 };
             }
         }
+        // What was seen in an open drawer has moved with it since.
+        let is_shut = |id: &SmolStr| {
+            let drawer = placed.entities.get(id);
+            drawer.is_some_and(|it| matches!(it.travel, Some(Travel::Slide { .. })) && it.open == Some(false))
+        };
+        let was_seen = |entity: &&Entity| self.seen.positions().any(|(id, _)| *id == entity.id);
+        let inside = placed.entities.values().filter(|entity| entity.inside.as_ref().is_some_and(is_shut));
+        let gone: Vec<SmolStr> = inside.filter(was_seen).map(|entity| entity.id.clone()).collect();
+        for id in gone {
+            placed.entities.get_mut(&id).into_iter().for_each(|entity| entity.pose = None);
+            unplaced.push((id, None));
+        }
         Some((placed, unplaced))
     }
 
@@ -300,29 +312,33 @@ impl Knowledge {
 
     /// Supports of things as the facts tell them; `None` for a thing that is nowhere, or nobody knows where.
     pub(super) fn supports(&self) -> IndexMap<SmolStr, Option<SmolStr>> {
-        let mut supports: IndexMap<SmolStr, Option<SmolStr>> = IndexMap::new();
+        let mut supports: IndexMap<SmolStr, Option<(&str, SmolStr)>> = IndexMap::new();
         for (query, truth) in &self.facts {
             let Query::Fact { fluent, args } = query else { continue };
             if !PLACING.contains(&fluent.as_str()) {
                 continue;
             }
             let [Pattern::Is(Value::Entity(thing)), place] = args.as_slice() else { continue };
+            let known = supports.get(thing).and_then(|known| known.as_ref());
             match (place, truth) {
                 (Pattern::Is(Value::Entity(place)), Truth::True) => {
-                    supports.insert(thing.clone(), Some(place.clone()));
+                    supports.insert(thing.clone(), Some((fluent, place.clone())));
                 }
                 (Pattern::Is(Value::Entity(place)), Truth::False | Truth::Unknown)
-                    if supports.get(thing).is_some_and(|known| known.as_ref() == Some(place)) =>
+                    if known.is_some_and(|(_, known)| known == place) =>
                 {
                     supports.insert(thing.clone(), None);
                 }
-                (Pattern::Any, Truth::False | Truth::Unknown) => {
+                // What is on nothing may be in something.
+                (Pattern::Any, Truth::False | Truth::Unknown)
+                    if known.is_none_or(|(relation, _)| *relation == fluent.as_str()) =>
+                {
                     supports.insert(thing.clone(), None);
                 }
                 _ => {}
             }
         }
-        supports
+        supports.into_iter().map(|(thing, known)| (thing, known.map(|(_, place)| place))).collect()
     }
 }
 

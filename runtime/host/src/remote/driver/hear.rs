@@ -3,8 +3,8 @@
 use super::super::link::LinkError;
 use super::super::protocol::{
     DriverCall, DriverMessage, DriverReport, EmptyParams, FeedbackParams, GoalParams, MAX_FEEDBACK,
-    MAX_KIND_BYTES, MAX_WAITING, QueryParams, QueryResult, REFUSED, RefusedData, RpcError, SAYINGS, hear,
-    heard,
+    MAX_FEEDBACK_A_SECOND, MAX_KIND_BYTES, MAX_LINES_A_SECOND, MAX_WAITING, QueryParams, QueryResult,
+    REFUSED, RefusedData, RpcError, SAYINGS, hear, heard,
 };
 use super::{LineFrom, RemoteDriver, Waiting, failed, nonsense};
 use motet_runtime::{Answer, DriverEvent, FailureReport, GoalId, OWN_MOTION, Outcome};
@@ -46,7 +46,7 @@ impl RemoteDriver {
     pub(super) fn hear_line(&mut self, line: &str) {
         self.log.line(LineFrom::Driver, line);
         (self.heard_at, self.is_asked) = (Instant::now(), false);
-        if self.rate.exceeds(self.heard_at) {
+        if self.rate.exceeds(MAX_LINES_A_SECOND, self.heard_at) {
             return self.broke(&LinkError::Hasty);
         }
         match hear(line) {
@@ -108,6 +108,14 @@ impl RemoteDriver {
                 self.breach(&format!("feedback of goal {goal} is dropped: there is too much of it"));
             }
             DriverReport::Feedback(feedback) if !self.runs(feedback.goal, "has feedback") => {}
+            DriverReport::Feedback(feedback)
+                if self.feedback.exceeds(MAX_FEEDBACK_A_SECOND, self.heard_at) =>
+            {
+                let told = told_goal(feedback.goal);
+                self.breach(&format!(
+                    "feedback of {told} is dropped: there were more than {MAX_FEEDBACK_A_SECOND} in a second"
+                ));
+            }
             DriverReport::Feedback(feedback) => {
                 let text: SmolStr = feedback.text.chars().take(MAX_FEEDBACK).collect();
                 let FeedbackParams { goal, own_motion, .. } = feedback;

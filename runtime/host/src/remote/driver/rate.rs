@@ -1,6 +1,5 @@
-//! Number of lines that a driver says in a second.
+//! Number of lines, or of feedback, that a driver says in a second.
 
-use super::super::protocol::MAX_LINES_A_SECOND;
 use std::time::{Duration, Instant};
 
 /// Counter of the lines of one second.
@@ -11,26 +10,26 @@ pub(super) struct LineRate {
 }
 
 impl LineRate {
-    /// Counts a line that was heard now. True if there were too many in this second.
-    pub(super) fn exceeds(&mut self, now: Instant) -> bool {
+    /// Counts a line that was heard now. True if there were more than `most` in this second.
+    pub(super) fn exceeds(&mut self, most: u32, now: Instant) -> bool {
         let is_over = |begun: Instant| now.saturating_duration_since(begun) >= Duration::from_secs(1);
         if self.begun.is_none_or(is_over) {
             (self.begun, self.lines) = (Some(now), 0);
         }
         self.lines = self.lines.saturating_add(1);
-        self.lines > MAX_LINES_A_SECOND
+        self.lines > most
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Duration, Instant, LineRate, MAX_LINES_A_SECOND};
+    use super::{Duration, Instant, LineRate};
 
     #[test]
     fn line_rate_is_that_of_one_second() {
         let (mut rate, begun) = (LineRate::default(), Instant::now());
-        assert!((0..MAX_LINES_A_SECOND).all(|_| !rate.exceeds(begun)));
-        assert!(rate.exceeds(begun + Duration::from_millis(999)));
-        assert!(!rate.exceeds(begun + Duration::from_secs(1)));
+        assert!((0..200).all(|_| !rate.exceeds(200, begun)));
+        assert!(rate.exceeds(200, begun + Duration::from_millis(999)));
+        assert!(!rate.exceeds(200, begun + Duration::from_secs(1)));
     }
 }
