@@ -290,18 +290,7 @@ impl Writer<'_> {
             }
             ExprKind::Call(call) => self.call(call, self.observed(&call.name.text)),
             ExprKind::Binding(name) => expr.kind = ExprKind::Name(name.clone()),
-            ExprKind::Bool(_)
-            | ExprKind::Number(_)
-            | ExprKind::Quantity(..)
-            | ExprKind::Text(_)
-            | ExprKind::Template(_)
-            | ExprKind::Name(_)
-            | ExprKind::Plain(_)
-            | ExprKind::Wrong(_)
-            | ExprKind::Any
-            | ExprKind::List(_)
-            | ExprKind::Field(..)
-            | ExprKind::Arith(..) => {}
+            _ => {}
         }
     }
 

@@ -224,9 +224,9 @@ fn driver_that_misbehaves_is_named_and_stopped_safely() {
         (
             "chatters",
             format!(
-                "{stop}    if m['method'] == 'start': say({{'id': m['id'], 'result': {{}}}})\n    while m['method'] == \
-                 'start': time.sleep(0.0005); say({{'method': 'feedback', 'params': {{'goal': m['params']['goal'], \
-                 'text': 'x'}}}})\n"
+                "{stop}    if m['method'] == 'start': say({{'id': m['id'], 'result': {{}}}})\n    \
+                 while m['method'] == 'start': time.sleep(0.0005); say({{'method': 'feedback', \
+                 'params': {{'goal': m['params']['goal'], 'text': 'x'}}}})\n"
             ),
             "the driver broke its promises more than 1000 times",
         ),

@@ -38,15 +38,7 @@ pub(super) fn check(steps: &[Step], library: &Library, diagnostics: &mut Vec<Dia
                     }
                 }
             }
-            StepKind::Sequence { .. }
-            | StepKind::Inline { .. }
-            | StepKind::Try { .. }
-            | StepKind::Delay { .. }
-            | StepKind::Finally { .. }
-            | StepKind::Repeat { until: None, .. }
-            | StepKind::Each { .. }
-            | StepKind::Parallel { .. }
-            | StepKind::Unknown => {}
+            _ => {}
         }
     }
 }

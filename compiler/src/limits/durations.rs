@@ -127,19 +127,7 @@ fn cleanups(block: &Block, program: &Program) -> f64 {
             StepKind::Finally { body, cleanup } => cleanups(body, program) + of_block(cleanup, program).1,
             // The body waits while a reaction runs.
             StepKind::Monitor { .. } => inner.sum(),
-            StepKind::Call(_)
-            | StepKind::Let { .. }
-            | StepKind::Sequence { .. }
-            | StepKind::Inline { .. }
-            | StepKind::If { .. }
-            | StepKind::Wait { .. }
-            | StepKind::Delay { .. }
-            | StepKind::Try { .. }
-            | StepKind::Repeat { .. }
-            | StepKind::Each { .. }
-            | StepKind::Parallel { .. }
-            | StepKind::End { .. }
-            | StepKind::Unknown => inner.fold(0.0, f64::max),
+            _ => inner.fold(0.0, f64::max),
         }
     };
     block.iter().filter_map(|id| program.step(*id)).map(|step| of_step(&step.kind)).fold(0.0, f64::max)

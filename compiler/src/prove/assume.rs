@@ -160,13 +160,13 @@ impl Prover<'_> {
     /// What each call makes that may have filled a hand before a step.
     fn filled_before(&mut self, id: StepId) -> Vec<Vec<FactChange>> {
         let (program, grips) = (self.program, self.grips());
-        let again = |kind: &StepKind| match kind {
-            StepKind::Repeat { .. } | StepKind::Each { .. } => true,
-            StepKind::Monitor { .. } | StepKind::Parallel { .. } => true,
-            _ => false,
-        };
-        let around: Vec<StepId> =
-            program.around(id).filter(|(_, step)| again(&step.kind)).map(|(around, _)| around).collect();
+        let loops = |kind: &StepKind| matches!(kind, StepKind::Repeat { .. } | StepKind::Each { .. });
+        let watches = |kind: &StepKind| matches!(kind, StepKind::Monitor { .. } | StepKind::Parallel { .. });
+        let around: Vec<StepId> = program
+            .around(id)
+            .filter(|(_, step)| loops(&step.kind) || watches(&step.kind))
+            .map(|(around, _)| around)
+            .collect();
         let may_run =
             |grip: &StepId| *grip < id || program.around(*grip).any(|(outer, _)| around.contains(&outer));
         let changes = |grip: StepId| {

@@ -219,10 +219,9 @@ impl<'a> StepResolver<'a> {
 
     /// Reserves the next place in the arena, so that a parent precedes its children.
     pub(super) fn reserve(&mut self, span: Span, position: StepPosition) -> Option<StepId> {
-        if self.inline.is_some() {
-            effort::spend(INLINED);
-        }
-        let is_used_up = self.inline.is_some() && effort::is_used_up();
+        let is_inlined = self.inline.is_some();
+        effort::spend(if is_inlined { INLINED } else { 0 });
+        let is_used_up = is_inlined && effort::is_used_up();
         if is_used_up || self.program.steps.len() >= MAX_NODES {
             if !self.full {
                 let branches = is_used_up.then_some((0, "document"));
@@ -344,7 +343,7 @@ impl<'a> StepResolver<'a> {
             }
             StepKind::Monitor { whens, body } => {
                 let beyond = whens.get(MAX_BRANCHES).map(|when| when.span);
-                self.check_watched(whens.len(), "monitor", beyond);
+                self.check_count(whens.len(), "monitor", beyond);
                 let numbered = whens.iter().enumerate().take(MAX_BRANCHES);
                 let whens = numbered.map(|(index, when)| self.when(when, id, index)).collect();
                 ir::StepKind::Monitor { whens, body: self.only_block(body, (id, BlockSlot::During)) }
@@ -395,15 +394,9 @@ impl<'a> StepResolver<'a> {
             }
             StepKind::Parallel { branches } => {
                 let mut fork = self.fork(id);
-                let (found, limit) = (branches.len(), MAX_BRANCHES);
-                if found > limit {
-                    self.elaborator.report(TooManySteps {
-                        span: step.span,
-                        limit,
-                        branches: Some((found, "parallel")),
-                    });
-                }
-                let numbered = branches.iter().enumerate().take(limit);
+                let beyond = branches.get(MAX_BRANCHES).map(|_| step.span);
+                self.check_count(branches.len(), "parallel", beyond);
+                let numbered = branches.iter().enumerate().take(MAX_BRANCHES);
                 let branches = numbered.map(|(index, block)| {
                     let slot = BlockSlot::Branch(u16::try_from(index).unwrap_or(u16::MAX));
                     self.path(&mut fork, (block, slot), "a branch", &Unbound::Beside)
@@ -502,12 +495,12 @@ impl<'a> StepResolver<'a> {
 
     /// Resolves the rules of a `keep` to the conditions of a monitor, which pauses where a rule is broken.
     fn keeps(&mut self, keeps: &[Keep]) -> Vec<ir::When> {
-        self.check_watched(keeps.len(), "keep", keeps.get(MAX_BRANCHES).map(|keep| keep.span));
+        self.check_count(keeps.len(), "keep", keeps.get(MAX_BRANCHES).map(|keep| keep.span));
         keeps.iter().take(MAX_BRANCHES).map(|keep| self.kept(keep)).collect()
     }
 
-    /// Reports more conditions than a step may watch; `beyond` is the span of the first of them.
-    fn check_watched(&mut self, found: usize, what: &'static str, beyond: Option<Span>) {
+    /// Reports more branches, or watched conditions, than a step may have; `beyond` is the span of the first.
+    fn check_count(&mut self, found: usize, what: &'static str, beyond: Option<Span>) {
         if let Some(span) = beyond {
             let branches = Some((found, what));
             self.elaborator.report(TooManySteps { span, limit: MAX_BRANCHES, branches });

@@ -650,8 +650,9 @@ fn soundness_a_pattern_about_a_name_is_unknown_before_a_round_asks() {
 /// A step that fills a hand only under a condition may have done so, and what it held may drop.
 #[test]
 fn soundness_what_a_hand_may_hold_may_drop() {
-    let domain = "fluent holding(o: Object)\nentity b: Object\naction lift(o: Object)\n    makes holding(b) when f(b), ready(o)\n\
-                  fluent ready(o: Object)\naction swing(o: Object)\n    needs ready(o)\n";
+    let domain = "fluent holding(o: Object)\nentity b: Object\naction lift(o: Object)\n    \
+                  makes holding(b) when f(b), ready(o)\nfluent ready(o: Object)\n\
+                  action swing(o: Object)\n    needs ready(o)\n";
     let tested = format!("{domain}policy p {{ lift(a) if holding(any) {{ say(\"it holds\") }} swing(a) }}");
     assert_eq!(verdicts("swing", &tested), [Verdict::Deferred]);
     let before = format!("{domain}policy p {{ if holding(any) {{ say(\"it holds\") }} lift(a) swing(a) }}");

@@ -67,17 +67,7 @@ impl<'a> Names<'a> {
                 format!("monitor {}", watched.join("; "))
             }
             NodeKind::End { how, why, .. } => self.ending(*how, false, why.as_ref()),
-            NodeKind::Let { .. }
-            | NodeKind::Sequence { .. }
-            | NodeKind::Inline { .. }
-            | NodeKind::If { .. }
-            | NodeKind::Wait { .. }
-            | NodeKind::Delay { .. }
-            | NodeKind::Finally { .. }
-            | NodeKind::Try { .. }
-            | NodeKind::Repeat { .. }
-            | NodeKind::Each { .. }
-            | NodeKind::Parallel { .. } => self.step(kind),
+            _ => self.step(kind),
         }
     }
 

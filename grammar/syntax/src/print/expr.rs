@@ -38,19 +38,7 @@ fn level(expr: &Expr) -> Precedence {
         ExprKind::Compare(..) => Precedence::Compare,
         ExprKind::Arith(ArithOp::Add | ArithOp::Subtract, ..) => Precedence::Sum,
         ExprKind::Arith(ArithOp::Multiply | ArithOp::Divide, ..) => Precedence::Product,
-        ExprKind::Bool(_)
-        | ExprKind::Number(_)
-        | ExprKind::Quantity(..)
-        | ExprKind::Text(_)
-        | ExprKind::Template(_)
-        | ExprKind::Name(_)
-        | ExprKind::Binding(_)
-        | ExprKind::Plain(_)
-        | ExprKind::Wrong(_)
-        | ExprKind::Any
-        | ExprKind::List(_)
-        | ExprKind::Call(_)
-        | ExprKind::Field(..) => Precedence::Atom,
+        _ => Precedence::Atom,
     }
 }
 
@@ -86,21 +74,7 @@ fn bare(text: &mut String, expr: &Expr) {
             let is_number = match &inner.kind {
                 ExprKind::Number(_) | ExprKind::Quantity(..) => true,
                 ExprKind::Plain(value) => parse_quantity(value).is_some(),
-                ExprKind::Bool(_)
-                | ExprKind::Text(_)
-                | ExprKind::Template(_)
-                | ExprKind::Name(_)
-                | ExprKind::Binding(_)
-                | ExprKind::Wrong(_)
-                | ExprKind::Any
-                | ExprKind::List(_)
-                | ExprKind::Call(_)
-                | ExprKind::Field(..)
-                | ExprKind::Not(_)
-                | ExprKind::All(_)
-                | ExprKind::AnyOf(_)
-                | ExprKind::Compare(..)
-                | ExprKind::Arith(..) => false,
+                _ => false,
             };
             if is_number {
                 text.push('(');

@@ -263,15 +263,7 @@ impl WireTranslation {
             | ExprKind::AnyOf(_)
             | ExprKind::Compare(..)
             | ExprKind::Arith(..) => self.form(expr, ExprPosition::Condition),
-            ExprKind::Number(_)
-            | ExprKind::Quantity(..)
-            | ExprKind::Text(_)
-            | ExprKind::Template(_)
-            | ExprKind::Name(_)
-            | ExprKind::Plain(_)
-            | ExprKind::Wrong(_)
-            | ExprKind::Any
-            | ExprKind::List(_) => Term::Text(super::expression(expr).into()),
+            _ => Term::Text(super::expression(expr).into()),
         };
         Condition(term.into())
     }
@@ -375,17 +367,7 @@ impl WireTranslation {
                     crate::ast::ArithOp::Divide => Form::Divide(pair),
                 }
             }
-            ExprKind::Bool(_)
-            | ExprKind::Number(_)
-            | ExprKind::Quantity(..)
-            | ExprKind::Text(_)
-            | ExprKind::Template(_)
-            | ExprKind::Name(_)
-            | ExprKind::Binding(_)
-            | ExprKind::Plain(_)
-            | ExprKind::Wrong(_)
-            | ExprKind::Any
-            | ExprKind::List(_) => return self.term(expr),
+            _ => return self.term(expr),
         };
         Term::Form(Box::new(form))
     }
@@ -428,16 +410,7 @@ fn has_unnamed(expr: &Expr) -> bool {
         ExprKind::Compare(_, left, right) | ExprKind::Arith(_, left, right) => {
             has_unnamed(left) || has_unnamed(right)
         }
-        ExprKind::Bool(_)
-        | ExprKind::Number(_)
-        | ExprKind::Quantity(..)
-        | ExprKind::Text(_)
-        | ExprKind::Template(_)
-        | ExprKind::Name(_)
-        | ExprKind::Binding(_)
-        | ExprKind::Plain(_)
-        | ExprKind::Wrong(_)
-        | ExprKind::Any => false,
+        _ => false,
     }
 }
 

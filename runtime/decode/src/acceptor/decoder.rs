@@ -268,7 +268,7 @@ impl Machine {
                 Some((self.range_of(&state, *range), digits))
             }
             // The number may be that of a step that is not in the log yet.
-            Op::Fork { .. } if self.bounds_times(&state) => None,
+            Op::Fork { .. } if self.least_hold(&state).is_some() => None,
             Op::Fork { other, .. } => match automaton.behind_actions(*other) {
                 Op::Number(range) => Some((*range, Digits::default())),
                 Op::Fork { other, .. } => match automaton.op(*other) {

@@ -37,15 +37,7 @@ impl Machine {
                     state.frame = frame.below;
                     state.op = frame.ret;
                 }
-                Op::Literal(_)
-                | Op::Choose(_)
-                | Op::Optional(_)
-                | Op::Word(_)
-                | Op::Fork { .. }
-                | Op::Text { .. }
-                | Op::Name(_)
-                | Op::Number(_)
-                | Op::Accept => break,
+                _ => break,
             }
         }
         (state.pos, state.lo, state.hi) = (0, UNSEEN, UNSEEN);

@@ -135,8 +135,8 @@ impl Machine {
         }
     }
 
-    /// The range of the number that is being written. A `wait` for a time may last as long as a monitor around
-    /// it needs to fire: where a longer one would be refuted, it ends before.
+    /// The range of the number that is being written. A `wait` for a time may last as long as a monitor needs
+    /// to fire: where a longer one would be refuted, it ends before.
     pub(super) fn range_of(&mut self, state: &State, range: NumberRange) -> NumberRange {
         let is_delay =
             self.arenas.entry(state.event).map(|said| said.event) == Some(Event::Open(NodeKind::Delay));
@@ -148,14 +148,9 @@ impl Machine {
         NumberRange { greatest: range.greatest.min(least - 1), ..range }
     }
 
-    /// A monitor around the open block may end the range of a time.
-    pub(super) fn bounds_times(&self, state: &State) -> bool {
-        self.least_hold(state).is_some()
-    }
-
     /// The shortest time, in milliseconds, for which a condition of the monitors around the open block has to
     /// hold; `None` if there is none.
-    fn least_hold(&self, state: &State) -> Option<i64> {
+    pub(super) fn least_hold(&self, state: &State) -> Option<i64> {
         if !self.frame(state.frame).flags.has(Flags::SHARED) {
             return None;
         }
@@ -193,15 +188,7 @@ impl Machine {
             BlockRole::Else | BlockRole::Catch if self.joins_entities(state.event, slot) => {
                 self.verify(state.event, &close)
             }
-            BlockRole::Branch
-            | BlockRole::Reaction
-            | BlockRole::During
-            | BlockRole::Group
-            | BlockRole::Then
-            | BlockRole::Else
-            | BlockRole::Try
-            | BlockRole::Cleanup
-            | BlockRole::Catch => !flags.has(Flags::SHARED) || self.verify_beside(state.event, &close),
+            _ => !flags.has(Flags::SHARED) || self.verify_beside(state.event, &close),
         }
     }
 

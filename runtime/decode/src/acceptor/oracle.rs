@@ -367,10 +367,7 @@ impl Machine {
                 if matches!(event, Event::First(_)) { value.first() } else { value }
             }
             Event::Text(start, len) => ArgumentValue::text(text(start, len)?),
-            Event::Constant(_) | Event::Number(..) | Event::AnyText => ArgumentValue::unknown(),
-            Event::Open(_) | Event::Close | Event::Name(..) | Event::Joined(_) | Event::Hole => {
-                ArgumentValue::unknown()
-            }
+            _ => ArgumentValue::unknown(),
         })
     }
 

@@ -164,39 +164,7 @@ fn is_always_open(guard: Guard) -> bool {
         Guard::Open | Guard::Below(_) | Guard::Loose | Guard::Is | Guard::Several | Guard::Any => true,
         // Those of a cleanup, which cannot fail.
         Guard::Room | Guard::Cleaned => true,
-        Guard::Close
-        | Guard::Empty
-        | Guard::Call
-        | Guard::Nest
-        | Guard::Fix
-        | Guard::Wait
-        | Guard::Done
-        | Guard::DoneWhen
-        | Guard::React(_)
-        | Guard::All
-        | Guard::Not
-        | Guard::NoTest
-        | Guard::Rare
-        | Guard::Never
-        | Guard::Callable(_)
-        | Guard::Let
-        | Guard::LetValue
-        | Guard::List
-        | Guard::OfList
-        | Guard::Caught
-        | Guard::OfCaught
-        | Guard::Pose
-        | Guard::First(..)
-        | Guard::Interrupt
-        | Guard::If
-        | Guard::Cleanup
-        | Guard::Split(_)
-        | Guard::Fluent(_)
-        | Guard::And
-        | Guard::Or
-        | Guard::Paren(_)
-        | Guard::NotParen
-        | Guard::Compared => false,
+        _ => false,
     }
 }
 

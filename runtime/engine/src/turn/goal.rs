@@ -388,8 +388,8 @@ impl Turn<'_> {
     /// True if a fact about a hand leaves open which thing it holds.
     fn is_vague_hand(&self, id: CellId) -> bool {
         match self.run.beliefs.cell(id).map(|cell| &*cell.query) {
-            Some(Query::Fact { fluent, args }) if fluent == lang::fluents::HOLDING => {
-                self.run.beliefs.is_vague(fluent, args)
+            Some(Query::Fact { fluent, args }) => {
+                fluent == lang::fluents::HOLDING && self.run.beliefs.is_vague(fluent, args)
             }
             _ => false,
         }

@@ -212,22 +212,8 @@ impl RemoteDriver {
                 self.report(DriverEvent::Lost { goal: start.goal });
             }
             (DriverCall::Advance(asked), answer) => self.advanced(asked, answer, line),
-            (
-                DriverCall::Cancel(_)
-                | DriverCall::Proceed(_)
-                | DriverCall::SafeStop(_)
-                | DriverCall::Unwatch(_)
-                | DriverCall::Ping(_)
-                | DriverCall::Look(_)
-                | DriverCall::Detections(_)
-                | DriverCall::Told(_)
-                | DriverCall::Truth(_)
-                | DriverCall::Status(_)
-                | DriverCall::Hello(_)
-                | DriverCall::Bye(_),
-                Err(wrong),
-            ) => self.log.note(&format!("the driver says: {}", wrong.message)),
             (_, Ok(_)) => {}
+            (_, Err(wrong)) => self.log.note(&format!("the driver says: {}", wrong.message)),
         }
     }
 
