@@ -64,8 +64,8 @@ pub(super) struct RunObserver<'a> {
     is_swapping: bool,
     /// While a person holds the run, the time until which it waits if nobody is there any more.
     held_until: Option<Instant>,
-    /// The last words were `wait`, and do not ask for another policy.
-    is_told_to_wait: bool,
+    /// The time for which it does after the last words: none after `wait`, which asks for no policy.
+    patience: Duration,
     /// True once nobody could answer a question in the middle of a run.
     pub(super) is_unanswered: bool,
     /// Output of answers.
@@ -100,7 +100,7 @@ impl<'a> RunObserver<'a> {
             older: None,
             is_swapping: false,
             held_until: None,
-            is_told_to_wait: false,
+            patience: PLANNING,
             is_unanswered: false,
             out: Output::default(),
         }
@@ -188,8 +188,7 @@ impl DialogueObserver for RunObserver<'_> {
     }
 
     fn held(&mut self, is_held: bool) {
-        let patience = if self.is_told_to_wait { Duration::ZERO } else { PLANNING };
-        self.held_until = is_held.then(|| Instant::now() + patience);
+        self.held_until = is_held.then(|| Instant::now() + self.patience);
         note(if is_held { "  keeps still; `go on` lets it go on" } else { "  goes on" });
         self.go_below();
         self.write(if is_held { "held" } else { "proceeded" }, json!({}));
@@ -249,9 +248,8 @@ impl DialogueObserver for RunObserver<'_> {
 
     fn reached(&mut self, now: Time) -> RunControl {
         let control = self.view.as_mut().map_or(RunControl::Continue, |view| view.reached(now));
-        if let Some(until) = self.held_until.filter(|_| self.scheduled.is_empty())
-            && control == RunControl::Continue
-        {
+        let is_paced = control == RunControl::Continue && self.scheduled.is_empty();
+        if let Some(until) = self.held_until.filter(|_| is_paced) {
             if self.operator.is_over() && Instant::now() >= until {
                 note("  stopped: nobody is there who could let it go on");
                 return RunControl::Stop;
@@ -283,7 +281,7 @@ impl DialogueObserver for RunObserver<'_> {
         note(&format!("> {}", escape(&line)));
         self.go_below();
         self.requested(&line);
-        self.is_told_to_wait = motet_requests::holds(&line);
+        self.patience = if motet_requests::holds(&line) { Duration::ZERO } else { PLANNING };
         Some(line)
     }
 
