@@ -24,7 +24,8 @@ fn request(place: &Place, request: &str, flags: &[&str]) -> Ran {
     place.run_args(&args)
 }
 
-/// What was put into something is known to be there, and a drawer opens again with what moved along in it.
+/// A conversation remembers the place of a thing that was put into a container, and opens the drawer again
+/// with the thing that moved along in it.
 #[test]
 fn conversation_remembers_what_was_put_into_something() {
     let place = Place::new("talk_inside");

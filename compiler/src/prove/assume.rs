@@ -4,7 +4,7 @@ use super::Prover;
 use super::effects::FactChange;
 use super::evaluation::CallFrame;
 use crate::facts::{Atom, Cause, FactKey, PathPartition, TruthSet, effort};
-use crate::ir::{Call, Condition, Fluent, StepId, StepKind};
+use crate::ir::{Call, Condition, Fluent, Step, StepId, StepKind};
 
 /// Maximal number of joins that are remembered.
 const MAX_PARTITIONS: usize = 8;
@@ -12,6 +12,9 @@ const MAX_PARTITIONS: usize = 8;
 pub(super) const MAX_PATHS: usize = 24;
 /// Number of writes after which a join is forgotten.
 const MAX_AGE: usize = 1000;
+
+/// Changes of facts, call by call.
+type Changes = Vec<Vec<FactChange>>;
 
 /// Outcome of a test in the run. A condition that stays unknown is neither true nor false.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -93,10 +96,12 @@ impl Prover<'_> {
     /// have dropped by itself.
     pub(super) fn assume_test(&mut self, id: StepId, condition: &Condition, outcome: Outcome) -> bool {
         let (here, cause, frame) = (self.state.facts.mark(), Cause::step(id), CallFrame::default());
-        let held = self.held_in(id, condition);
+        let mut filled = None;
+        let held = self.held_in(id, condition, &mut filled);
         if held.is_empty() {
             return self.assume(condition, outcome, cause, frame);
         }
+        let filled = filled.unwrap_or_else(|| self.filled_before(id));
         let partitions = self.state.partitions.clone();
         let mut paths = Vec::with_capacity(2);
         if self.assume(condition, outcome, cause, frame) {
@@ -106,7 +111,7 @@ impl Prover<'_> {
         for seen in &held {
             self.back_to(here);
             self.forget_paths(condition);
-            self.drop_held(id, &held, *seen);
+            self.drop_held(&filled, &held, *seen, cause);
             if self.narrow(condition, outcome, cause, frame) {
                 let (fluent, key) = *seen;
                 if held.iter().any(|(of, wide)| *of == fluent && wide.covers(key) && *wide != key) {
@@ -123,9 +128,10 @@ impl Prover<'_> {
         !paths.is_empty()
     }
 
-    /// Facts in a condition that say that a hand holds something, and that a drop would make otherwise.
-    fn held_in(&mut self, id: StepId, condition: &Condition) -> Vec<Atom> {
-        let (mut held, mut rest, mut filled) = (Vec::new(), vec![condition], None);
+    /// Facts in a condition that say that a hand holds something, and that a drop would make otherwise. Where
+    /// they ask for it, `filled` gets the changes of [`Self::filled_before`].
+    fn held_in(&mut self, id: StepId, condition: &Condition, filled: &mut Option<Changes>) -> Vec<Atom> {
+        let (mut held, mut rest) = (Vec::new(), vec![condition]);
         while let Some(part) = rest.pop() {
             rest.extend(part.parts());
             let Condition::Fact(fact) = part else { continue };
@@ -133,13 +139,13 @@ impl Prover<'_> {
             let is_held = |known: TruthSet| if of { known.yes.is_some() } else { known.no.is_some() };
             let Some(key) = self.key(fact, CallFrame::default()) else { continue };
             let atom = (fact.fluent, key);
+            let known = self.evaluate(part, CallFrame::default());
             // Where nothing is known, a step may have filled the hand.
-            let is_unknown = self.evaluate(part, CallFrame::default()).open.is_some();
-            let filled = is_unknown && {
+            let is_filled = known.open.is_some() && {
                 let filled = filled.get_or_insert_with(|| self.filled_before(id));
                 filled.iter().flatten().any(|change| self.fills(change, atom))
             };
-            let may_hold = |known: TruthSet| is_held(known) || filled && known.open.is_some();
+            let may_hold = |known: TruthSet| is_held(known) || is_filled && known.open.is_some();
             if of && key.is_pattern() {
                 // Each of them may drop alone.
                 self.state.facts.entries(fact.fluent, key, |key, known| {
@@ -148,7 +154,7 @@ impl Prover<'_> {
             }
             // A name may be that of the thing which is held.
             let named = || self.has_symbol(fact.fluent, key).then(|| self.instances(atom));
-            if may_hold(self.evaluate(part, CallFrame::default()))
+            if may_hold(known)
                 || named().into_iter().flatten().any(|(fluent, key)| may_hold(self.value(fluent, key)))
             {
                 held.push(atom);
@@ -157,16 +163,15 @@ impl Prover<'_> {
         held
     }
 
-    /// What each call makes that may have filled a hand before a step.
-    fn filled_before(&mut self, id: StepId) -> Vec<Vec<FactChange>> {
+    /// Changes that each call makes which may have filled a hand before a step.
+    fn filled_before(&mut self, id: StepId) -> Changes {
         let (program, grips) = (self.program, self.grips());
-        let loops = |kind: &StepKind| matches!(kind, StepKind::Repeat { .. } | StepKind::Each { .. });
-        let watches = |kind: &StepKind| matches!(kind, StepKind::Monitor { .. } | StepKind::Parallel { .. });
-        let around: Vec<StepId> = program
-            .around(id)
-            .filter(|(_, step)| loops(&step.kind) || watches(&step.kind))
-            .map(|(around, _)| around)
-            .collect();
+        let is_again = |step: &Step| {
+            use StepKind::{Each, Monitor, Parallel, Repeat};
+            matches!(step.kind, Repeat { .. } | Each { .. } | Monitor { .. } | Parallel { .. })
+        };
+        let around = program.around(id).filter(|(_, step)| is_again(step)).map(|(around, _)| around);
+        let around: Vec<StepId> = around.collect();
         let may_run =
             |grip: &StepId| *grip < id || program.around(*grip).any(|(outer, _)| around.contains(&outer));
         let changes = |grip: StepId| {
@@ -193,15 +198,10 @@ impl Prover<'_> {
 
     /// Makes unknown all that the steps have made which may have filled a hand: the thing may be anywhere,
     /// and what was seen of one hand is known.
-    fn drop_held(&mut self, id: StepId, held: &[Atom], seen: Atom) {
-        let cause = Cause::step(id);
-        let mut made = Vec::new();
-        for changes in self.filled_before(id) {
-            let may_be = |change: &FactChange| held.iter().any(|atom| self.fills(change, *atom));
-            if changes.iter().any(may_be) {
-                made.extend(changes);
-            }
-        }
+    fn drop_held(&mut self, filled: &Changes, held: &[Atom], seen: Atom, cause: Cause) {
+        let may_be = |change: &FactChange| held.iter().any(|atom| self.fills(change, *atom));
+        let made = filled.iter().filter(|changes| changes.iter().any(may_be));
+        let mut made: Vec<FactChange> = made.flatten().copied().collect();
         let unknown = |(fluent, key)| FactChange::unknown(fluent, key);
         if made.is_empty() {
             // It was in the hand from the start.

@@ -113,8 +113,8 @@ fn acceptor_opens_concurrent_calls_that_check() {
     assert!(open > 20 && closed > 20, "{open} open, {closed} closed");
 }
 
-/// What a step has made certain lasts through the next steps: one that takes as long as a monitor asks for is
-/// refused, also in a policy that is called. A `wait` may be shorter.
+/// A fact that a step has made certain lasts through the next steps: one that takes as long as a monitor asks
+/// for is refused, also in a policy that is called. A `wait` may be shorter.
 #[test]
 fn acceptor_refuses_steps_that_outlast_a_condition() {
     let session = session("hsr", "living_room");
