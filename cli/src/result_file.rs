@@ -1,6 +1,7 @@
 //! File with one JSON object per document, in the order of the documents. Each names its document and has a
 //! checksum of it, so that a file that was begun can be continued without doing anything twice.
 
+use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 
@@ -12,6 +13,7 @@ use serde_json::{Map, Value, json};
 use crate::documents::Document;
 use crate::error::CliError;
 use crate::flags::ResultArgs;
+use crate::report::Progress;
 
 /// File of results, open at its end.
 pub(crate) struct ResultFile {
@@ -55,7 +57,7 @@ impl ResultFile {
     }
 
     /// The result of a document that the file has already; `None` if the document is next to do.
-    pub(crate) fn done(&mut self, document: &Document) -> Result<Option<DoneResult>, CliError> {
+    fn done(&mut self, document: &Document) -> Result<Option<DoneResult>, CliError> {
         let Some(done) = self.done.pop_front() else { return Ok(None) };
         if done.checksum == self.checksum(document) {
             return Ok(Some(done));
@@ -68,6 +70,21 @@ impl ResultFile {
             ),
             help: "continue with the same inputs and flags, or give another file".to_owned(),
         })
+    }
+
+    /// A document of the shard, with its result if the file has it already; `None` for one of another shard.
+    pub(crate) fn due(
+        results: &RefCell<Option<Self>>,
+        is_of_shard: bool,
+        document: Document,
+        progress: &Progress,
+    ) -> Result<Option<(Option<DoneResult>, Document)>, CliError> {
+        if !is_of_shard {
+            progress.skip(document.size());
+            return Ok(None);
+        }
+        let done = results.borrow_mut().as_mut().map(|results| results.done(&document)).transpose()?;
+        Ok(Some((done.flatten(), document)))
     }
 
     /// Number of results that the file has from an earlier call and that were not asked for yet.

@@ -114,15 +114,8 @@ fn check(args: &CheckArgs, report: &mut Report) -> Result<Exit, CliError> {
     let mut tally = Tally { denies_deferred: args.deny_deferred, ..Tally::default() };
     let shard = args.jobs.shard();
     let documents = inputs.documents().enumerate().filter_map(|(index, found)| {
-        let found = found.and_then(|found| match &mut *results.borrow_mut() {
-            _ if !shard.has(index) => {
-                progress.skip(found.size());
-                Ok(None)
-            }
-            Some(results) => Ok(Some((results.done(&found)?, found))),
-            None => Ok(Some((None, found))),
-        });
-        found.transpose()
+        let due = |found| ResultFile::due(&results, shard.has(index), found, &progress);
+        found.and_then(due).transpose()
     });
     let ended = batch::in_order(
         args.jobs.jobs(),

@@ -231,6 +231,15 @@ fn driver_that_misbehaves_is_named_and_stopped_safely() {
             "the driver broke its promises more than 1000 times",
         ),
         (
+            "reports",
+            format!(
+                "{stop}    while m['method'] == 'start': say({{'method': 'observed', 'params': {{'query': \
+                 {{'fact': {{'fluent': 'visible', 'args': [{{'is': {{'entity': 'mug_1'}}}}]}}}}, 'answer': \
+                 {{'truth': True}}}}}})\n"
+            ),
+            "the driver said more than 2000 `observed` in a second",
+        ),
+        (
             "keeps silent",
             format!("{stop}    if m['method'] == 'ping': say({{'id': m['id'], 'result': {{}}}})\n"),
             "does not say whether goal #1 runs",

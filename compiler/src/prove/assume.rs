@@ -328,41 +328,28 @@ impl Prover<'_> {
                     None => false,
                 }
             }
-            Condition::All(parts) => self.narrow_all(parts, outcome, cause, frame),
-            Condition::AnyOf(parts) => self.narrow_any(parts, outcome, cause, frame),
+            Condition::All(parts) => self.narrow_parts((parts, true), outcome, cause, frame),
+            Condition::AnyOf(parts) => self.narrow_parts((parts, false), outcome, cause, frame),
         }
     }
 
-    fn narrow_all(
+    /// Narrows by an `and`, whose value of every part is true where it is true, or by an `or`, whose value of
+    /// every part is false where it is false.
+    fn narrow_parts(
         &mut self,
-        parts: &[Condition],
+        (parts, of_all): (&[Condition], bool),
         outcome: Outcome,
         cause: Cause,
         frame: CallFrame<'_>,
     ) -> bool {
-        if outcome.truth() {
+        if outcome.truth() == of_all {
             return parts.iter().all(|part| self.narrow(part, outcome, cause, frame));
         }
-        // Not all hold: if all but one certainly do, it is that one.
-        let mut doubtful = parts.iter().filter(|part| !self.evaluate(part, frame).is_true());
-        match (doubtful.next(), doubtful.next()) {
-            (None, _) => false,
-            (Some(only), None) => self.narrow(only, outcome, cause, frame),
-            (Some(_), Some(_)) => true,
-        }
-    }
-
-    fn narrow_any(
-        &mut self,
-        parts: &[Condition],
-        outcome: Outcome,
-        cause: Cause,
-        frame: CallFrame<'_>,
-    ) -> bool {
-        if !outcome.truth() {
-            return parts.iter().all(|part| self.narrow(part, outcome, cause, frame));
-        }
-        let mut doubtful = parts.iter().filter(|part| !self.evaluate(part, frame).is_false());
+        // One part decides: if all others certainly do not, it is that one.
+        let mut doubtful = parts.iter().filter(|part| {
+            let value = self.evaluate(part, frame);
+            if of_all { !value.is_true() } else { !value.is_false() }
+        });
         match (doubtful.next(), doubtful.next()) {
             (None, _) => false,
             (Some(only), None) => self.narrow(only, outcome, cause, frame),

@@ -159,21 +159,17 @@ impl<'w> AbstractState<'w> {
 
     /// Lays the state above the facts of an environment, which must be those that it was lifted from.
     fn over(self, environment: &Environment) -> AbstractState<'_> {
-        AbstractState {
-            facts: self.facts.over(&environment.facts),
-            lasting: self.lasting,
-            watched: self.watched,
-            volatile: self.volatile,
-            partitions: self.partitions,
-            head: self.head,
-            before_reactions: self.before_reactions,
-        }
+        self.with_facts(|facts| facts.over(&environment.facts))
     }
 
     /// Takes the state without the facts of its environment.
     fn lift(self) -> AbstractState<'static> {
+        self.with_facts(FactStore::lift)
+    }
+
+    fn with_facts<'a>(self, change: impl FnOnce(FactStore<'w>) -> FactStore<'a>) -> AbstractState<'a> {
         AbstractState {
-            facts: self.facts.lift(),
+            facts: change(self.facts),
             lasting: self.lasting,
             watched: self.watched,
             volatile: self.volatile,

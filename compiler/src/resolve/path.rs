@@ -62,7 +62,7 @@ impl StepResolver<'_> {
         self.path_with(fork, block, name, unseen, Vec::new())
     }
 
-    /// The same with names of its own, which no step behind it sees.
+    /// The same with names of its own, which no step behind it sees: what they hide is seen there again.
     pub(super) fn path_with(
         &mut self,
         fork: &mut Fork,
@@ -78,8 +78,11 @@ impl StepResolver<'_> {
         let body = self.block(block, Some(fork.step), slot);
         let goes_on = std::mem::replace(&mut self.goes_on, outer);
         let mut entries = self.elaborator.scope.take_since(inside);
-        entries.iter_mut().take(count).for_each(|entry| *entry = without_value(entry, &Unbound::Caught));
         let scope = &mut self.elaborator.scope;
+        let is_hidden = |entry: &ScopeEntry| scope.find(&entry.name).is_some();
+        let own = entries.drain(..count).filter(|entry| !is_hidden(entry));
+        let own: Vec<_> = own.map(|entry| without_value(&entry, &Unbound::Caught)).collect();
+        entries.splice(..0, own);
         let unseen: Vec<_> = entries
             .iter()
             .filter(|entry| scope.find(&entry.name).is_none())

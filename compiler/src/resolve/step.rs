@@ -20,7 +20,7 @@ use crate::facts::effort;
 use crate::ir::{self, Binding, BindingId, BlockSlot, Condition, Program, StepId, StepPosition, Term, Ty};
 
 /// Maximal number of steps of a policy with its sub-policies inlined.
-pub const MAX_NODES: usize = 100_000;
+pub const MAX_NODES: usize = 20_000;
 /// Weight of a step of a policy that is inlined, in the work of a document: each of its policies may inline
 /// all others.
 const INLINED: usize = 2 * effort::VISIT;

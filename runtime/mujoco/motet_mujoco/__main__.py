@@ -4,6 +4,7 @@ import argparse
 import shlex
 import sys
 
+from .begin import WrongStart, whole
 from .chance import profile
 from .driver import Driver, Options, stdio
 from .faults import answers, read
@@ -56,13 +57,17 @@ def main(arguments=None):
         said = args.answers + (answers(args.answers_file) if args.answers_file else [])
         model = load(args.robot, args.scene, command)
         told = load(args.robot, args.told, command).scene if args.told else None
+        real = whole(model, command)
+        if real is not model and told is None:
+            # The robot knows no more than the scene says.
+            told = model.scene
         unknown = [one[0] for one in args.walk + args.says if one[0] not in model.people]
         if unknown:
             raise ModelError("the scene has no person `%s`" % unknown[0])
-    except ModelError as error:
+    except (ModelError, WrongStart) as error:
         print("error: %s" % error, file=sys.stderr)
         return 2
-    driver = Driver(model, command, Options(rates, args.seed, said, script), args.oracle == "robot", args.walk,
+    driver = Driver(real, command, Options(rates, args.seed, said, script), args.oracle == "robot", args.walk,
                     args.says, told, args.detector, args.oracle is not None)
     stdio(driver, args.speed)
     return 0

@@ -7,7 +7,7 @@ import tempfile
 
 import numpy as np
 
-from .model import ModelError, load
+from .model import ModelError, drawn, load
 from .planner import quoted, rpy
 from .sight import half_height
 
@@ -29,6 +29,25 @@ def model_of(robot, scene, command):
             return load(robot, path, command)
         except ModelError as error:
             raise WrongStart(str(error)) from None
+
+
+def whole(model, command):
+    """A model in which all things have a place that its scene puts in or on something without saying where. A
+    world without them could never show them. What the scene says nothing of, or what has no room, stays
+    nowhere."""
+    scene = copy.deepcopy(model.scene)
+    entities, is_changed = {entity["id"]: entity for entity in scene["entities"]}, False
+    for thing in entities.values():
+        relation = next((one for one in ("on", "in") if thing.get(one) in entities), None)
+        is_lost = thing["kind"] == "Object" and "shape" in thing and "pose" not in thing
+        if relation is None or not is_lost or scene["robot"].get("holding") == thing["id"]:
+            continue
+        try:
+            lay(scene, thing, relation, entities[thing[relation]])
+            is_changed = True
+        except WrongStart:
+            continue
+    return model_of(model.source, scene, command) if is_changed else model
 
 
 def begun(scene, facts, planner, grips=None):
@@ -73,7 +92,7 @@ def hold(scene, thing, holds):
 
 def lay(scene, thing, relation, support):
     """Puts a thing on or into another, at the free place that is nearest to its middle."""
-    if thing.get(relation) == support["id"]:
+    if thing.get(relation) == support["id"] and "pose" in thing:
         return
     if "pose" not in support or "shape" not in support:
         raise WrongStart("nobody knows where `%s` is, so `%s` cannot begin there" % (support["id"], thing["id"]))
@@ -81,7 +100,10 @@ def lay(scene, thing, relation, support):
         thing.pop(other, None)
     others = [np.array(one["pose"]["xyz"][:2]) for one in scene["entities"] if "pose" in one and one is not thing
               and support["id"] in (one.get("on"), one.get("in"))]
-    shape, (x, y, z) = support["shape"], support["pose"]["xyz"]
+    shape, (x, y, z) = support["shape"], np.array(support["pose"]["xyz"], dtype=float)
+    way = drawn(support) if support.get("open") else None
+    if way is not None:
+        x, y, z = way + (x, y, z)
     yaw = support["pose"].get("rpy", (0.0, 0.0, 0.0))[2]
     sides = shape.get("box") or [1.4 * next(iter(shape.values())).get("radius", 0.2)] * 2
     spans = [np.linspace(-1.0, 1.0, 9) * max(side / 2.0 - RIM, 0.0) for side in sides[:2]]
@@ -92,7 +114,7 @@ def lay(scene, thing, relation, support):
     if not free:
         raise WrongStart("`%s` has no room for `%s`" % (support["id"], thing["id"]))
     up = half_height(shape) if relation == "on" else BOTTOM - half_height(shape)
-    thing["pose"] = {"xyz": [float(free[0][0]), float(free[0][1]), z + up + half_height(thing.get("shape", {}))],
-                     "rpy": [0.0, 0.0, 0.0]}
+    high = z + up + half_height(thing.get("shape", {}))
+    thing["pose"] = {"xyz": [float(free[0][0]), float(free[0][1]), float(high)], "rpy": [0.0, 0.0, 0.0]}
     thing[relation] = support["id"]
     thing.pop("visible", None)

@@ -42,6 +42,8 @@ class Beliefs:
         self.grip = None
         # Things by the people who took them; things that were seen or felt where they are; and where lost things are not.
         self.given, self.seen, self.gone = {}, set(), {}
+        # How far drawers and doors were seen to be open, as shares of their travel.
+        self.openings = {}
         # Things of which the host told and the room that was told has none.
         self.new = set()
         self.data = mujoco.MjData(world.model.mj)
@@ -269,10 +271,15 @@ class Beliefs:
             if "pose" in known:
                 data.mocap_pos[at, :2] = known["pose"]["xyz"][:2]
         for container, (at, opened, _) in model.doors.items():
-            data.qpos[at] = opened if self.entities.get(container, {}).get("open") else 0.0
+            is_open = bool(self.entities.get(container, {}).get("open"))
+            data.qpos[at] = opened * self.openings.get(container, float(is_open))
 
-    def opened(self, container, is_open):
-        """Notes that a drawer or door is open or closed; None for what nobody knows."""
+    def opened(self, container, is_open, share=None):
+        """Notes that a drawer or door is open or closed; None for what nobody knows. A share of its travel is
+        how far it is open, where it was seen."""
+        self.openings.pop(container, None)
+        if share is not None:
+            self.openings[container] = share
         known = self.entities.get(container)
         if known is not None and "travel" in known:
             before = known.pop("open", None)

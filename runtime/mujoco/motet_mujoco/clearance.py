@@ -11,6 +11,8 @@ from .motion import set_targets
 
 # Distances in m that base and arm keep where a witness says nothing.
 KEEPS = {"base": 0.04, "arm": 0.01}
+# Distance in m by which what is too near anyway may come nearer.
+NEARER = 0.001
 
 
 class Clearance:
@@ -45,7 +47,8 @@ class Clearance:
         return margins
 
     def near(self, target):
-        """Pairs of bodies nearer to each other than they may be, at targets of the actuators."""
+        """Pairs of bodies nearer to each other than they may be, at targets of the actuators, with their
+        distances in m."""
         mj, data = self.model.mj, self.data
         set_targets(self.model, data, self.start, target)
         if self.held:
@@ -60,19 +63,24 @@ class Clearance:
         mujoco.mj_fwdPosition(mj, data)
         mj.geom_margin[:], mj.opt.enableflags = before, flags
         owner, mine = self.model.geom_owner, ("robot", self.held)
-        found = set()
+        found = {}
         for at in range(data.ncon):
             one, other = data.contact[at].geom
             pair = (owner[one], owner[other])
             is_floor = self.model.floor in (one, other)
             if not is_floor and (pair[0] in mine) != (pair[1] in mine):
-                found.add((mj.geom_bodyid[one], mj.geom_bodyid[other]))
+                bodies = mj.geom_bodyid[one], mj.geom_bodyid[other]
+                found[bodies] = min(found.get(bodies, np.inf), data.contact[at].dist)
         return found
 
     def is_free(self, start, corner, targets):
-        """True if at all targets nothing is too near that is not so at the start and at the corner anyway."""
-        permitted = self.near(start) | self.near(corner)
-        return all(self.near(target) <= permitted for target in targets)
+        """True if at all targets nothing is too near, or at least no nearer than at the start or the corner
+        anyway."""
+        permitted = self.near(start)
+        for bodies, gap in self.near(corner).items():
+            permitted[bodies] = min(permitted.get(bodies, np.inf), gap)
+        return all(gap >= permitted.get(bodies, np.inf) - NEARER
+                   for target in targets for bodies, gap in self.near(target).items())
 
 
 def matrix(quaternion):

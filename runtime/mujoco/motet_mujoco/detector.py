@@ -24,6 +24,9 @@ NEAR_FURNITURE, NEAR_FLOOR = 0.008, 0.02
 JUMP, HUE, SMALLEST = 0.03, 0.09, 40
 # Extent in m of the largest thing.
 LARGEST = 0.6
+# Height in m below its top from which on the side of a round thing shows. Errors in m of the points of a
+# circle up to which what looks round is round, and what looks flat.
+RIM, ROUGH, SMOOTH = 0.006, 0.002, 0.0008
 
 
 class Detection:
@@ -141,7 +144,18 @@ def describe(points, colours, mask, eye):
     label = "%s %s" % (colour_name(colour), shape)
     seen = min(1.0, mask.sum() / 400.0)
     confidence = (0.5 if is_cut else 0.9) * (0.5 + 0.5 * seen)
-    if shape in ("sphere", "cylinder"):
+    ball = fitted(points, "sphere", max(horizontal, height))
+    if ball is not None and ball[2] < SMOOTH:
+        shape = "sphere"
+    circle = ball if shape == "sphere" else fitted(points, shape, horizontal)
+    if shape != "sphere" and circle is not None:
+        # The curve of a side says more than how wide it looks.
+        shape = "cylinder" if circle[2] < (ROUGH if shape == "cylinder" else SMOOTH) else "box"
+    if circle is not None and circle[2] < ROUGH and shape != "box":
+        centre[:2], horizontal = circle[0][:2], 2.0 * circle[1]
+        if shape == "sphere":
+            centre[2], height = circle[0][2], horizontal
+    elif shape != "box":
         centre[:2] = middle(points, eye)
     if shape == "sphere":
         wide = max(horizontal, height)
@@ -161,6 +175,23 @@ def middle(points, eye):
     near, far = np.percentile(points[:, :2] @ ahead, [1, 99])
     left, right = np.percentile(points[:, :2] @ across, [1, 99])
     return ahead * max(near + (right - left) / 2.0, (near + far) / 2.0) + across * (left + right) / 2.0
+
+
+def fitted(points, shape, wide):
+    """Middle and radius of a round thing by the curve of its side, and the error of the points, in m. A part
+    of the side is enough where something hides the rest. It is the circle, or the sphere, of the least
+    algebraic error (Kåsa 1976). None where too few points show a side. The error is infinite if the radius
+    does not go with the width that shows."""
+    if shape != "sphere":
+        points = points[points[:, 2] < points[:, 2].max() - RIM][:, :2]
+    if len(points) < SMALLEST:
+        return None
+    origin = points.mean(axis=0)
+    local = points - origin
+    found, *_ = np.linalg.lstsq(np.column_stack([2.0 * local, np.ones(len(local))]), (local**2).sum(axis=1))
+    radius = float(np.sqrt(max(found[-1] + found[:-1] @ found[:-1], 0.0)))
+    error = float(np.sqrt(np.mean((np.linalg.norm(local - found[:-1], axis=1) - radius) ** 2)))
+    return origin + found[:-1], radius, error if 0.45 * wide < radius < 1.2 * wide else np.inf
 
 
 def shape_of(points, extent, fill):

@@ -318,7 +318,7 @@ class Driver:
 
     def tick(self):
         """Goes on by a tick: tasks aim, people walk, the world moves, and what changed is told."""
-        self.tasks.rate[:] = 0.0
+        self.tasks.rate[:] = self.tasks.change[:] = 0.0
         for number in sorted(self.goals):
             goal = self.goals[number]
             if goal.state != "running" or goal.is_held:
@@ -340,7 +340,7 @@ class Driver:
         self.faults.tick(self.world, self.people, self.observer.own, self.options.chance, self.world.now - self.offset)
         for person, text in self.people.tick():
             self.report("heard", {"text": text, "from": person})
-        self.world.step(self.tasks.goal, self.tasks.rate)
+        self.world.step(self.tasks.goal, self.tasks.rate, self.tasks.change)
         self.observer.own.tick(self.world)
         if self.senses is not None:
             self.senses.tick()

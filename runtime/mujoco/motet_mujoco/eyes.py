@@ -12,7 +12,7 @@ import sys
 import mujoco
 import numpy as np
 
-from . import sight
+from . import aim, sight
 from .beliefs import ELSEWHERE
 from .camera import Camera, NoGraphics
 from .chance import Chance
@@ -33,10 +33,13 @@ PART, PARTLY = 0.03, 0.8
 # Rate at which the detector by colour and shape misses a thing of 10 cm at 1 m without any chance, as
 # `motet_mujoco.calibrate` measures it: `camera.miss` of a profile contains it.
 MISSED = 0.012
+# Length in m by which a side of a box is longer than it would be if the box were not turned.
+TURNED = 0.01
 # Distances in m by which a pile is higher than each thing in it, and by which a view of it is smaller.
 PILED, HIDDEN = 0.005, 0.02
-# Parts of the travel of a drawer or door that are told apart.
-STEPS = 5
+# Parts of the travel of a drawer or door that are told apart, finer places about the best of them that are
+# compared, and the distance in m up to which a point is on the leaf.
+STEPS, FINE, LEAF = 5, 41, 0.01
 # Distance in m behind a thing from which on what shows there shows that the thing is gone, and the pixels of the rim
 # of a picture that show nothing of it.
 BEHIND, FRAME = 0.06, 4
@@ -90,9 +93,12 @@ class Eyes:
     def see_doors(self):
         """Notes which drawers and doors are seen to be open or closed."""
         for container in self.world.model.doors:
-            is_open = self.sees_open(container)
-            if is_open is not None:
-                self.beliefs.opened(container, is_open)
+            if self.oracle:
+                self.beliefs.opened(container, self.world.is_open(container))
+                continue
+            share = self.opening(container)
+            if share is not None:
+                self.beliefs.opened(container, share > OPENED, share)
 
     def is_gone(self, thing):
         """True if a depth picture shows what is behind the place where a thing is believed to be."""
@@ -193,25 +199,37 @@ class Eyes:
 
     def sees_open(self, container):
         """True if a drawer or a door is seen to be open, False if it is seen to be closed; None if it is not seen."""
+        if self.oracle:
+            return self.world.is_open(container)
+        share = self.opening(container) if container in self.world.model.doors else None
+        return None if share is None else share > OPENED
+
+    def opening(self, container):
+        """Share of its travel by which a drawer or a door is seen to be open; None if it is not seen."""
         model = self.world.model
-        if self.oracle or container not in model.doors:
-            return self.world.is_open(container) if self.oracle else None
         joint, opened, _ = model.doors[container]
         at_body = {body: np.flatnonzero(model.mj.geom_bodyid == model.body_of[body])
                    for body in (container, container + "/door")}
-        leaf, data, counts, room = at_body[container + "/door"], mujoco.MjData(model.mj), [], self.beliefs.room()
+        leaf, data, room = at_body[container + "/door"], mujoco.MjData(model.mj), self.beliefs.room()
         points = [one.points()[::GRID, ::GRID][one.depth[::GRID, ::GRID] > 0.0] for one in self.pictures]
         # What is seen of the frame and of the robot itself with what it holds is no leaf.
-        own = np.flatnonzero(np.isin(np.array(model.geom_owner, dtype=str), ["robot", *self.beliefs.in_hand()]))
-        for solid in self.solids([*at_body[container], *own]):
+        for solid in [*self.solids(at_body[container]), *self.own()]:
             points = [one[~belongs(one, solid)] for one in points]
-        for step in range(STEPS + 1):
-            data.qpos[:], data.mocap_pos[:] = room.qpos, room.mocap_pos
-            data.qpos[joint] = opened * step / STEPS
+        data.qpos[:], data.mocap_pos[:] = room.qpos, room.mocap_pos
+
+        def on_leaf(share, near):
+            data.qpos[joint] = opened * share
             mujoco.mj_kinematics(model.mj, data)
-            counts.append(sum(np.count_nonzero(within(model.mj, data, leaf, one)) for one in points))
+            return sum(np.count_nonzero(within(model.mj, data, leaf, one, near)) for one in points)
+
+        counts = [on_leaf(step / STEPS, LEAF) for step in range(STEPS + 1)]
         best = int(np.argmax(counts))
-        return None if counts[best] < ENOUGH else best / STEPS > OPENED
+        if counts[best] < ENOUGH:
+            return None
+        # A leaf that is not quite where it should be would stand out beside its place like a thing.
+        shares = np.clip(best / STEPS + np.linspace(-0.5, 0.5, FINE) / STEPS, 0.0, 1.0)
+        fine = np.array([on_leaf(share, LEAF / 2.0) for share in shares])
+        return float(np.mean(shares[fine >= 0.98 * fine.max()]))
 
     def pose(self, one):
         """Position and rotation of an entity as it was last seen, or else as it is believed to be; None if nothing
@@ -290,10 +308,15 @@ class Eyes:
         """Middle of a known thing of which a side was seen. A part of it that is seen where the thing should be says
         that it is there."""
         believed = self.beliefs.entities[one["id"]]
-        is_part = np.max(one["extent"]) < PARTLY * np.max(extent(believed))
+        seen, whole = np.array(one["extent"]), extent(believed)
+        is_part = np.max(seen) < PARTLY * np.max(whole)
         if is_part and self.beliefs.gap(one["id"], one["pose"]["xyz"]) in (None, 0.0) and "pose" in believed:
-            return [round(float(part), 4) for part in believed["pose"]["xyz"]]
-        return centred(one, believed)
+            place = np.array(believed["pose"]["xyz"], dtype=float)
+            if "cylinder" in believed.get("shape", {}) and np.abs(seen - whole)[:2].max() < 0.1 * whole[0]:
+                # The curve of any part of its side says where its axis is.
+                place[:2] = one["pose"]["xyz"][:2]
+            return [round(float(part), 4) for part in place]
+        return centred(one, believed, self.eye())
 
     def is_part(self, one, taken):
         """True for a detection that is a part of a thing of which another part was recognised, as where something
@@ -366,6 +389,26 @@ class Eyes:
             solids.append(solid)
         return solids
 
+    def own(self):
+        """Solids of the robot itself with what it holds."""
+        owners = np.array(self.world.model.geom_owner, dtype=str)
+        return self.solids(np.flatnonzero(np.isin(owners, ["robot", *self.beliefs.in_hand()])))
+
+    def aside(self, corners):
+        """How to turn the camera on the hand about itself so that the hand does not hide some points of the
+        map, as rows: (place of the camera, rotation). None where it does not, or where the camera is not on
+        the hand."""
+        model = self.world.model
+        mj = model.mj
+        if self.oracle or not model.cameras or model.tip < 0:
+            return None
+        bodies = mj.cam_bodyid[mj.camera(model.cameras[0]).id], mj.site_bodyid[model.tip]
+        if mj.body_weldid[bodies[0]] != mj.body_weldid[bodies[1]]:
+            return None
+        picture = self.look()
+        turn = aim.turn(picture, aim.covered(picture, self.own()), corners)
+        return None if turn is None else (picture.position, turn)
+
     def close(self):
         """Ends the detector."""
         if self.process is not None:
@@ -373,13 +416,13 @@ class Eyes:
             self.process.wait(timeout=5)
 
 
-def within(mj, data, geoms, points):
-    """Points, as rows, that are on or in one of some boxes."""
+def within(mj, data, geoms, points, near):
+    """Points, as rows, that are in one of some boxes, or nearer to it than so many m."""
     found = np.zeros(len(points), dtype=bool)
     for at in geoms:
         if mj.geom_type[at] == mujoco.mjtGeom.mjGEOM_BOX:
             local = (points - data.geom_xpos[at]) @ data.geom_xmat[at].reshape(3, 3)
-            found |= np.all(np.abs(local) <= mj.geom_size[at] + 0.01, axis=1)
+            found |= np.all(np.abs(local) <= mj.geom_size[at] + near, axis=1)
     return found
 
 
@@ -419,8 +462,16 @@ ALIKE = {"orange": ("brown", "red", "yellow"), "brown": ("orange", "red"), "purp
          "black": ("grey",), "white": ("grey",), "grey": ("white", "black"), "yellow": ("orange",), "pink": ("red",)}
 
 
-def centred(one, entity):
-    """Middle of a known thing whose near side was seen: its top is seen, and its height is that of its shape."""
-    position = np.array(one["pose"]["xyz"])
-    position[2] += one["extent"][2] / 2.0 - extent(entity)[2] / 2.0
+def centred(one, entity, eye):
+    """Middle of a known thing whose near side was seen from an eye: its top is seen, and its height is that
+    of its shape. What a box has more than was seen of it is behind that side."""
+    position, size = np.array(one["pose"]["xyz"]), np.array(one["extent"])
+    position[2] += size[2] / 2.0 - extent(entity)[2] / 2.0
+    if "box" in entity.get("shape", {}) and "pose" in entity:
+        rotation = np.zeros(9)
+        mujoco.mju_quat2Mat(rotation, turned(entity["pose"]))
+        hidden = (np.abs(rotation.reshape(3, 3)) @ extent(entity) - size)[:2]
+        # A side that is longer than it should be is one of a thing that is turned.
+        if hidden.min() > -TURNED:
+            position[:2] += np.sign(position - eye)[:2] * np.maximum(hidden, 0.0) / 2.0
     return [round(float(part), 4) for part in position]

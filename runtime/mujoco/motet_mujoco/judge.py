@@ -23,7 +23,7 @@ import numpy as np
 
 from .chance import Chance, profile
 from .model import Model, ModelError, find_motet, motet
-from .motion import Path, gentle, phases, timed
+from .motion import Path, frame_at, gentle, phases, rotation_vector, timed
 from .world import World
 
 SCENES = {"panda": [os.path.join(os.path.dirname(__file__), "scenes", "table.json")]}
@@ -39,7 +39,8 @@ SEEN_FROM = 1.0
 
 
 class Trial:
-    """One verdict carried out: `off` is the error in m with which the hand came to the thing."""
+    """One verdict carried out: `error` is how far the hand was off its witness, along the path and at its
+    end, and `off` the error in m with which the hand came to the thing."""
 
     def __init__(self, scene, query, seed, found, off):
         self.scene, self.query, self.seed, self.off = scene, query, seed, off
@@ -59,32 +60,32 @@ def carry_out(world, query, witness, share=1.0):
     return judge(world, arguments, points, witness, share)
 
 
-def follow(world, points, share):
-    """Follows points, and measures the error of base and joints at the end of each leg. With a thing in the hand it
-    accelerates as little as the driver and the times of a witness do."""
-    greatest = np.zeros(2)
+def follow(world, points, share, until=lambda: False):
+    """Follows points, and measures the error of the hand in m and rad, as rows: the greatest along the whole
+    path, and the one at its end. With a thing in the hand it accelerates as little as the driver and the
+    times of a witness do. Ends early where `until` says so."""
     path = timed(points, world.model, share)
     if world.held():
         path = Path([gentle(world, stroke) for stroke in path.strokes])
-    start = world.now
+    start, along = world.now, np.zeros(2)
     while world.now - start < path.end:
         world.step(*path.at(world.now - start + world.tick / 2.0))
+        # Poses are those of the beginning of the last step.
+        then = world.now - start - world.model.mj.opt.timestep
+        along = np.maximum(along, tip_error(world, path.at(then)[0]))
+        if until():
+            return np.stack([along, along])
     for _ in range(30):
         world.step(points[-1])
-    greatest = np.maximum(greatest, tip_error(world))
-    return greatest
+    end = tip_error(world, world.target)
+    return np.stack([np.maximum(along, end), end])
 
 
-def tip_error(world):
-    """Distance in m and angle in rad of the hand from where its targets put it."""
-    from .motion import rotation_vector, set_targets
-
-    reacher = world.reacher
+def tip_error(world, target):
+    """Distance in m and angle in rad of the hand from where targets put it."""
     if world.model.tip < 0:
         return np.zeros(2)
-    qpos = world.data.qpos.copy()
-    set_targets(world.model, reacher.data, qpos, world.target)
-    place, turn = reacher.pose(reacher.data.qpos.copy())
+    place, turn = frame_at(world, target)
     tip = world.tip()
     return np.array([np.linalg.norm(place - tip[0]), np.linalg.norm(rotation_vector(turn @ tip[1].T))])
 
@@ -154,17 +155,12 @@ def support_gone(world, thing):
 
 
 def go_to(world, _arguments, points, _witness, share):
-    path = timed(points, world.model, share)
-    met = []
-    start = world.now
-    while world.now - start < path.end and not met:
-        world.step(*path.at(world.now - start + world.tick / 2.0))
-        met = [what for what in [world.bumped()] if what]
-    if met:
-        return False, "touches %s" % met[0], np.zeros(2)
-    world.wait(0.2)
+    error = follow(world, points, share, until=lambda: world.bumped() is not None)
+    met = world.bumped()
+    if met is not None:
+        return False, "touches %s" % met, error
     off = np.abs(world.base() - points[-1][:3]).max() if world.model.drives else 0.0
-    return bool(off < 0.005), "off by %.1f mm" % (off * 1e3), tip_error(world)
+    return bool(off < 0.005), "off by %.1f mm" % (off * 1e3), error
 
 
 def pull(world, arguments, points, witness, share):
@@ -172,7 +168,7 @@ def pull(world, arguments, points, witness, share):
     begun = world.opening(container)
     if begun is None:
         return push_thing(world, container, points, share)
-    error = np.zeros(2)
+    error = np.zeros((2, 2))
     for phase, points in phases(points, world.model.grips):
         if phase == "grip":
             close(world)
@@ -189,7 +185,7 @@ def pull(world, arguments, points, witness, share):
 
 def push_thing(world, thing, points, share):
     if thing not in world.model.free:
-        return False, "is fixed", np.zeros(2)
+        return False, "is fixed", np.zeros((2, 2))
     before = world.pose(thing)[0]
     error = follow(world, points, share)
     moved = np.linalg.norm(world.pose(thing)[0] - before)
@@ -200,8 +196,8 @@ def put(world, arguments, points, witness, share):
     thing, support = arguments[0], arguments[1]
     world.settle_in_hand(thing)
     if not world.holds(thing):
-        return False, "no grip at the start", np.zeros(2)
-    error, parts = np.zeros(2), phases(points, world.model.grips, "draw")
+        return False, "no grip at the start", np.zeros((2, 2))
+    error, parts = np.zeros((2, 2)), phases(points, world.model.grips, "draw")
     for phase, part in parts:
         if phase == "draw":
             error = follow(world, part, share)
@@ -387,10 +383,16 @@ def told(done, form):
     """Prints a trial."""
     if form == "json":
         print(json.dumps({"scene": done.scene, "query": done.query, "seed": done.seed, "holds": bool(done.holds),
-                          "why": done.why, "error": [round(float(part), 5) for part in done.error]}), flush=True)
+                          "why": done.why, "error": rounded(done.error[0]),
+                          "end_error": rounded(done.error[1])}), flush=True)
     else:
         print("%-12s %-32s %3d %-4s %s" % (done.scene, done.query, done.seed, "yes" if done.holds else "NO", done.why),
               flush=True)
+
+
+def rounded(error):
+    """An error in m and rad, to 10 µm and 10 µrad."""
+    return [round(float(part), 5) for part in error]
 
 
 def interval(held, of):
@@ -413,15 +415,16 @@ def summary(args, done, simulated, taken):
     shares = {}
     for one in done:
         shares.setdefault(one.kind(), []).append(bool(one.holds))
-    # Where nothing is held or pulled, so that nothing bends the arm.
-    free = [one.error for one in done if one.kind() in ("reach", "go_to")]
-    error = np.max(free, axis=0) if free else np.zeros(2)
+    # Where nothing is held or touched, so that nothing bends the arm; `pull` counts the way to the handle and
+    # back.
+    free = [one.error for one in done if one.kind() in ("reach", "go_to", "pull")]
+    error = np.max(free, axis=0) if free else np.zeros((2, 2))
     if args.format == "json":
         found = {kind: {"held": sum(held), "of": len(held), "interval": interval(sum(held), len(held)),
                         "aim": aim_of(kind, args.robot)} for kind, held in shares.items()}
         print(json.dumps({"robot": args.robot, "profile": args.profile, "seeds": args.seeds, "shares": found,
-                          "error": [float(part) for part in error], "simulated_secs": simulated,
-                          "processor_secs": taken}))
+                          "error": rounded(error[0]), "end_error": rounded(error[1]),
+                          "simulated_secs": simulated, "processor_secs": taken}))
         return
     print()
     for kind, held in shares.items():
@@ -429,7 +432,8 @@ def summary(args, done, simulated, taken):
         print("%-6s %3d of %3d borne out, %5.1f %% (%.1f to %.1f; aim %.0f %%)"
               % (kind, sum(held), len(held), 100.0 * sum(held) / len(held), 100.0 * low, 100.0 * high,
                  100.0 * aim_of(kind, args.robot)))
-    print("the hand is off its witness by at most %.1f mm and %.1f mrad" % (error[0] * 1e3, error[1] * 1e3))
+    print("the hand is off its witness by at most %.2f mm and %.2f mrad along a path,"
+          " %.2f mm and %.2f mrad at its end" % tuple(error.ravel() * 1e3))
     print("%.0f s simulated in %.0f s of the processor: %.0f times real time" % (simulated, taken,
                                                                                  simulated / max(taken, 1e-9)))
 

@@ -76,7 +76,19 @@ class Model:
         joints = [m.actuator_trnid[at, 0] for at in range(m.nu)]
         self.control_qpos = np.array([m.jnt_qposadr[joint] for joint in joints], dtype=int)
         self.control_qvel = np.array([m.jnt_dofadr[joint] for joint in joints], dtype=int)
-        self.lead = -m.actuator_biasprm[:, 2] / np.maximum(m.actuator_gainprm[:, 0], 1e-9)
+        # Stiffness of each servo, and the seconds by which its damping makes it lag.
+        self.stiffness = np.maximum(m.actuator_gainprm[:, 0], 1e-9)
+        self.lag = -m.actuator_biasprm[:, 2] / self.stiffness
+        # Joints that follow others: positions of both in `qpos`, an offset and a factor.
+        pairs = [at for at in np.flatnonzero(m.eq_type == mujoco.mjtEq.mjEQ_JOINT) if m.eq_obj2id[at] >= 0]
+        self.followers = [(int(m.jnt_qposadr[m.eq_obj1id[at]]), int(m.jnt_qposadr[m.eq_obj2id[at]]),
+                           *m.eq_data[at, :2].tolist()) for at in pairs]
+        # Matrix from the rates of the actuators to those of all degrees of freedom.
+        self.transmission = np.zeros((m.nv, m.nu))
+        self.transmission[self.control_qvel, np.arange(m.nu)] = 1.0
+        for at in pairs:
+            leader = m.jnt_dofadr[m.eq_obj2id[at]]
+            self.transmission[m.jnt_dofadr[m.eq_obj1id[at]]] = m.eq_data[at, 1] * self.transmission[leader]
         numbers = {m.numeric(at).name: np.array(m.numeric(at).data) for at in range(m.nnumeric)}
         base = numbers["speed/base"]
         self.card = numbers["card"]  # radius of the base, reach, payload, opening
@@ -135,13 +147,7 @@ class Model:
 
     def drawn(self, container):
         """Offset in m in the map by which an open drawer is off its place; None of what is no drawer."""
-        entity = self.entities[container]
-        slide = entity.get("travel", {}).get("slide")
-        if slide is None or "pose" not in entity:
-            return None
-        off = np.zeros(3)
-        mujoco.mju_rotVecQuat(off, np.array(slide["axis"]) * slide["distance"], turned(entity["pose"]))
-        return off
+        return drawn(self.entities[container])
 
     def posture(self, called):
         """Targets of all actuators in a posture, or None."""
@@ -153,6 +159,17 @@ class Model:
         """Actuators of neither base nor hand."""
         first = 3 if self.drives else 0
         return [at for at in range(first, self.mj.nu) if at not in self.grips]
+
+
+def drawn(entity):
+    """Offset in m in the map by which an entity, an open drawer, is off its place; None of what is no
+    drawer."""
+    slide = entity.get("travel", {}).get("slide")
+    if slide is None or "pose" not in entity:
+        return None
+    off = np.zeros(3)
+    mujoco.mju_rotVecQuat(off, np.array(slide["axis"]) * slide["distance"], turned(entity["pose"]))
+    return off
 
 
 def is_hand(called):

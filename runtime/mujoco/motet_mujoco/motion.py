@@ -33,14 +33,18 @@ class Path:
         return [self.strokes[0].points[0], *[point for stroke in self.strokes for point in stroke.points[1:]]]
 
     def at(self, time):
-        """Targets and their rates at a time."""
-        target, rate = self.strokes[0].points[0].copy(), np.zeros_like(self.strokes[0].points[0])
+        """Targets, their rates and their accelerations at a time."""
+        target = self.strokes[0].points[0].copy()
+        rate, change = np.zeros((2, len(target)))
         for start, stroke in zip(self.starts, self.strokes):
-            if time > start:
-                moved, moves = stroke.at(time - start)
+            if time >= start + stroke.span:
+                target += stroke.points[-1] - stroke.points[0]
+            elif time > start:
+                moved, moves, changes = stroke.at(time - start)
                 target += moved
                 rate += moves
-        return target, rate
+                change += changes
+        return target, rate, change
 
     def blended(self, model, is_free):
         """The path with overlaps within the accelerations of a model, where `is_free` says that the targets on the way
@@ -101,14 +105,13 @@ class Stroke:
         self.passed = np.concatenate([[0.0], np.cumsum(self.cruise)])
 
     def at(self, time):
-        """How far the targets have moved since the start, and their rates."""
+        """How far the targets have moved since the start, their rates and their accelerations."""
         if time >= self.span or self.passed[-1] < 1e-9:
-            return self.points[-1] - self.points[0], np.zeros_like(self.points[0])
-        share, speed = trapezoid(time, self.span, self.ramp)
-        done = share * self.passed[-1]
+            return self.points[-1] - self.points[0], *np.zeros((2, len(self.points[0])))
+        done, speed, change = (part * self.passed[-1] for part in trapezoid(time, self.span, self.ramp))
         leg = min(int(np.searchsorted(self.passed, done, side="right")) - 1, len(self.cruise) - 1)
         way = (self.points[leg + 1] - self.points[leg]) / max(self.cruise[leg], 1e-9)
-        return self.points[leg] - self.points[0] + way * (done - self.passed[leg]), way * speed * self.passed[-1]
+        return self.points[leg] - self.points[0] + way * (done - self.passed[leg]), way * speed, way * change
 
     def reversed(self):
         """The same stroke from its end to its start."""
@@ -133,14 +136,15 @@ def longest(one, other, taken, model):
 
 
 def trapezoid(time, span, ramp):
-    """Share of a leg that is done at a time, and its rate: even acceleration, even speed, even braking."""
+    """Share of a leg that is done at a time, its rate and its acceleration: even acceleration, even speed,
+    even braking."""
     fastest = 1.0 / max(span - ramp, 1e-9)
     left = span - time
     if time < ramp:
-        return fastest * time * time / (2.0 * ramp), fastest * time / ramp
+        return fastest * time * time / (2.0 * ramp), fastest * time / ramp, fastest / ramp
     if left < ramp:
-        return 1.0 - fastest * left * left / (2.0 * ramp), fastest * left / ramp
-    return fastest * (time - ramp / 2.0), fastest
+        return 1.0 - fastest * left * left / (2.0 * ramp), fastest * left / ramp, -fastest / ramp
+    return fastest * (time - ramp / 2.0), fastest, 0.0
 
 
 def timed(points, model, share=1.0):
@@ -302,14 +306,11 @@ class Reacher:
 
 def set_targets(model, data, qpos, target):
     """Puts the joints of the actuators at targets, and those that follow them where they belong."""
-    mj = model.mj
-    data.qpos[:] = qpos
-    data.qpos[model.control_qpos] = target
-    for at in range(mj.neq):
-        if mj.eq_type[at] == mujoco.mjtEq.mjEQ_JOINT and mj.eq_obj2id[at] >= 0:
-            leader = data.qpos[mj.jnt_qposadr[mj.eq_obj2id[at]]]
-            factors = mj.eq_data[at, :2]
-            data.qpos[mj.jnt_qposadr[mj.eq_obj1id[at]]] = factors[0] + factors[1] * leader
+    placed = qpos.copy()
+    placed[model.control_qpos] = target
+    for follower, leader, offset, factor in model.followers:
+        placed[follower] = offset + factor * placed[leader]
+    data.qpos[:] = placed
 
 
 def limits(model):

@@ -22,6 +22,8 @@ AROUND = (0.2, 0.1, -0.05)
 RAISES = (0.06, 0.12, 0.18, 0.24)
 # Distances in m that base and arm keep on a way on which they touch nothing.
 TOUCHES = {"base": 0.0, "arm": 0.0}
+# Way in m or rad between two checks of a straight way.
+STEP = 0.05
 # Id of what may be in a container.
 INSIDE = "inside"
 # Seconds before its deadline by which a command is to be done.
@@ -53,13 +55,13 @@ class Mover:
         self.planned = []  # motions of its own that nobody was told of
         self.planner, self.options = planner, options
         self.goal = world.target.copy()  # targets that the tasks aim at
-        self.rate = np.zeros_like(self.goal)
+        self.rate, self.change = np.zeros_like(self.goal), np.zeros_like(self.goal)
         self.lost = 0
 
     def aim(self, path, elapsed, mask):
         """Aims the actuators of a mask at a path."""
-        target, rate = path.at(elapsed + self.world.tick / 2.0)
-        self.goal[mask], self.rate[mask] = target[mask], rate[mask]
+        target, rate, change = path.at(elapsed + self.world.tick / 2.0)
+        self.goal[mask], self.rate[mask], self.change[mask] = target[mask], rate[mask], change[mask]
 
     def path(self, points, speed=1.0):
         """A path through points at a share of the greatest speeds."""
@@ -68,15 +70,11 @@ class Mover:
     def follow(self, path, what=None, watch=None, keeps=None):
         """Follows a path. Fails with `blocked` where the robot meets something, or falls behind."""
         world, model = self.world, self.world.model
-        points = [self.goal.copy(), *path.points[1:]]
+        path = self.smooth(path, keeps)
+        points = path.points
         mask = np.any(np.abs(np.array(points) - points[0]) > 1e-9, axis=0)
         if not mask.any():
             return
-        path = path.to(points)
-        if self.room.held():
-            path = Path([gentle(world, stroke) for stroke in path.strokes])
-        if len(path.strokes) > 1:
-            path = path.blended(model, Clearance(world, self.beliefs, keeps).is_free)
         elapsed, behind = 0.0, 0
         while elapsed < path.end:
             self.aim(path, elapsed, mask)
@@ -93,6 +91,16 @@ class Mover:
             if watch is not None:
                 watch()
         self.goal[mask] = points[-1][mask]
+
+    def smooth(self, path, keeps=None):
+        """A path as it is followed from here: gently with a thing in the hand, and without stops that it does
+        not need."""
+        path = path.to([self.goal.copy(), *path.points[1:]])
+        if self.room.held():
+            path = Path([gentle(self.world, stroke) for stroke in path.strokes])
+        if len(path.strokes) > 1:
+            path = path.blended(self.world.model, Clearance(self.world, self.beliefs, keeps).is_free)
+        return path
 
     def frame(self, target):
         """Position and rotation of the hand at targets of the actuators."""
@@ -196,17 +204,38 @@ class Mover:
             if (yield from self.home_again(begun, motion, watch)):
                 return
             strokes = self.path(points[free - 1 :], motion.speed).strokes
+        if len(strokes) > 1 and self.world.now + self.smooth(Path(strokes)).end > motion.until - SPARE:
+            # There is no time to go back all the way that the base came.
+            yield from self.follow(Path(strokes[:1]), watch=watch)
+            if (yield from self.home_again(begun, motion, watch)):
+                return
+            strokes = strokes[1:]
         last, leaves = strokes[-1].points[-1], self.leaves(motion, begun)
-        if leaves is not None and np.abs(leaves - last)[self.arm_and_base()].max() > 1e-3:
+        is_left, is_near = np.abs(leaves - last)[self.arm_and_base()].max() <= 1e-3, self.is_way(last, leaves)
+        if not is_left and is_near:
             strokes.extend(self.path([last, leaves], motion.speed).strokes)
         yield from self.follow(Path(strokes), watch=watch)
+        if not is_left and not is_near:
+            yield from self.stand(leaves, motion, watch)
         yield from self.pause(0.2)
+
+    def stand(self, leaves, motion, watch=None):
+        """Drives to where a command leaves the robot, if there is a way and time for it. Whoever stands
+        behind an open door may have a long way back, and what comes next can begin here as well."""
+        if motion.leaves is None or not self.world.model.drives:
+            return
+        witness, _ = self.planner.plan(self.beliefs.now(), stand_at(*leaves[:3]))
+        path = None if witness is None else self.own(witness, motion)
+        if path is not None and self.world.now + path.end <= motion.until - SPARE:
+            yield from self.follow(path, watch=watch)
 
     def is_way(self, *points, keeps=None):
         """True if nothing is too near on the straight ways between targets that is not so at the first of them."""
         clearance = Clearance(self.world, self.beliefs, keeps)
-        shares = np.linspace(0.1, 1.0, 8)
-        ways = [one + (other - one) * share for one, other in zip(points, points[1:]) for share in shares]
+        ways = []
+        for one, other in zip(points, points[1:]):
+            steps = max(8, int(np.abs(other - one).max() / STEP))
+            ways.extend(one + (other - one) * share for share in np.linspace(1.0 / steps, 1.0, steps))
         return clearance.is_free(points[0], points[0], ways)
 
     def keeps(self, thing, how="slipped out of the hand"):
@@ -251,8 +280,9 @@ class Mover:
         return target
 
     def home_again(self, begun, motion, watch=None):
-        """Brings the robot to where the command leaves it, by a way of its own: away from what it opened or closed,
-        the arm home, and the base to its place. True if the arm is there or at home."""
+        """Brings the robot to where the command leaves it, by a way of its own: away from what it opened or
+        closed, the arm home, and the base to its place, if there is time for that. True if the arm is there
+        or at home."""
         leaves = self.leaves(motion, begun)
         if motion.leaves is not None and np.abs(self.goal - leaves)[self.arm_and_base()].max() <= 0.02:
             return True
@@ -263,10 +293,7 @@ class Mover:
             return False
         yield from self.follow(self.own(witness, motion), watch=watch)
         self.observer.own.posture = "home"
-        if motion.leaves is not None and self.world.model.drives:
-            witness, _ = self.planner.plan(self.beliefs.now(), stand_at(*leaves[:3]))
-            if witness is not None:
-                yield from self.follow(self.own(witness, motion), watch=watch)
+        yield from self.stand(leaves, motion, watch)
         return True
 
     def supposing(self, one, place):

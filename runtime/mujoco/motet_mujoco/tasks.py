@@ -3,9 +3,12 @@
 A task that is not resumed holds still, since the targets stay where they are.
 """
 
+import itertools
+
 import numpy as np
 
 from .camera import NoGraphics
+from .eyes import extent
 from .motion import near_turn, phases
 from .moving import THINKS, Failed, Motion, Mover
 from .observation import AT_PLACE
@@ -18,8 +21,10 @@ NEAR_GRASP = 0.05
 GIVES = 0.04
 # Distance in m of the base from a thing up to which it looks for a better place to see it.
 ABOUT_HERE = 2.0
+# How often a camera on the hand is turned at most so that the hand does not hide a thing.
+AIMS = 2
 # Distances in m, beyond that of a drive to a person, from which the hand may hold something out.
-OFFERS = (0.0, 0.15, -0.1)
+OFFERS = (0.0, -0.1, 0.15)
 
 
 class Tasks(Mover):
@@ -51,7 +56,8 @@ class Tasks(Mover):
             self.observer.own.visited.update((to, about))
             return
         path, held = self.motion(motion, "go_to(%s)" % quoted(about)), self.room.held()
-        if motion.witness is None and held and to in self.world.model.people:
+        if held and to in self.world.model.people:
+            # The hand may hold it otherwise than whoever planned the way expected.
             path = yield from self.offering(path, held[0], to, motion)
         yield from self.drive(path, to)
         self.observer.own.visited.add(to)
@@ -371,7 +377,33 @@ class Tasks(Mover):
                 raise
             path = self.motion(Motion(None), query, "not_found", self.supposing(one, place))
         yield from self.follow(path)
+        yield from self.uncover(one, place)
         yield from self.pause(0.1)
+
+    def uncover(self, one, place):
+        """Turns a camera on the hand so that the hand does not hide where an entity should be."""
+        known = self.beliefs.entities[one]
+        middle = known.get("pose", {}).get("xyz") if place is None else place
+        if middle is None or one not in self.beliefs.things():
+            return
+        signs = np.array(list(itertools.product((-1.0, 1.0), repeat=3)))
+        corners = np.array(middle) + signs * extent(known) / 2.0
+        for _ in range(AIMS):
+            found = self.eyes.aside(corners)
+            if found is None:
+                return
+            eye, turn = found
+            tip, rotation = self.world.tip()
+            at, qpos = eye + turn @ (tip - eye), self.world.data.qpos
+            target = self.world.reacher.solve(qpos, self.goal, at, turn @ rotation)
+            if target is None:
+                return
+            for grip in self.world.model.grips:
+                target[grip] = self.goal[grip]
+            if not self.is_way(self.goal, target):
+                return
+            yield from self.follow(self.path([self.goal.copy(), target]))
+            yield from self.pause(0.1)
 
     def may_show(self, one, spot):
         """True if another place near might show an entity: it is about here, and not shut in."""

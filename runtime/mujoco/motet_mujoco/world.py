@@ -56,23 +56,34 @@ class World:
         """Time in s between two targets."""
         return STEPS * self.model.mj.opt.timestep
 
-    def step(self, target=None, rate=None):
-        """Goes on by a tick, with the actuators at a target that moves at a rate."""
+    def step(self, target=None, rate=None, change=None):
+        """Goes on by a tick, with the actuators at a target that moves at a rate with an acceleration: those
+        of the middle of the tick."""
         model, data = self.model, self.data
         if target is not None:
             self.target = np.array(target, dtype=float)
-        # A position servo brakes: led by as much as that, it follows a moving target without a lag. A slow
-        # integral holds against weight.
-        off = self.target - data.qpos[model.control_qpos]
+        rate = np.zeros(model.mj.nu) if rate is None else rate
+        # A slow integral holds against weight. It compares the target with the joints at the same time.
+        off = self.target - rate * self.tick / 2.0 - data.qpos[model.control_qpos]
         self.integral = np.clip(self.integral + 4.0 * self.tick * off, -0.02, 0.02)
         for at in model.grips:
             self.integral[at] = 0.0
-        data.ctrl[:] = self.target + self.integral
-        if rate is not None:
-            data.ctrl[:] += model.lead * rate
+        # The damping of a position servo brakes: led by as much as that, it follows a moving target without a
+        # lag. The steps of a tick find the joints half a step before its middle, on average.
+        data.ctrl[:] = self.target + self.integral + (model.lag - model.mj.opt.timestep / 2.0) * rate
+        if change is not None:
+            data.ctrl[:] += self.feedforward(change) / model.stiffness
         for thing, (person, offset) in self.carried_by.items():
             self.place(thing, data.mocap_pos[model.people[person]] + offset)
         mujoco.mj_step(model.mj, data, STEPS)
+
+    def feedforward(self, change):
+        """Forces with which the actuators accelerate as they should: by the dynamics of the robot itself,
+        without what it touches or holds. Its weight is compensated."""
+        model, data = self.model, self.data
+        force = np.zeros(model.mj.nv)
+        mujoco.mj_mulM(model.mj, data, force, model.transmission @ change)
+        return model.transmission.T @ (force + data.qfrc_bias - data.qfrc_gravcomp)
 
     def run(self, path, until=lambda: False):
         """Follows a path; ends early where `until` says so. Answers whether it came to the end."""

@@ -1,15 +1,20 @@
 """Paths: times of witnesses, corners that are passed by, and what the hand bears."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from motet_mujoco.beliefs import Beliefs
 from motet_mujoco.chance import Chance, profile
 from motet_mujoco.driver import Driver, Options
+from motet_mujoco.judge import SCENES, tip_error
 from motet_mujoco.model import load
 from motet_mujoco.motion import HELD, Path, gentle, timed, witnessed
 from motet_mujoco.moving import Failed, Motion, Mover
 from motet_mujoco.observation import Observer
 from motet_mujoco.world import World
+
+TABLE = SCENES["panda"][0]
 
 
 @pytest.fixture(scope="module")
@@ -64,6 +69,30 @@ def test_a_path_straight_on_does_not_stop(hsr):
     assert np.all(rates(path) <= hsr.model.speeds * 1.001)
     for point in points:
         assert min(np.abs(path.at(time)[0] - point).max() for time in np.arange(0.0, path.end + 0.01, 0.01)) < 3e-3
+
+
+@pytest.mark.parametrize("robot, scene, joints", [
+    ("hsr", "kitchen", {"base/x": 0.4, "base/yaw": 1.5, "arm_lift_joint": 0.3, "arm_flex_joint": -1.0}),
+    ("anymal_z1", "lab", {"base/y": -0.3, "base/yaw": -1.0, "joint1": 1.0, "joint2": 1.2, "joint3": -1.0}),
+    ("panda", TABLE, {"panda_joint1": 1.0, "panda_joint2": 0.5, "panda_joint4": 0.8, "panda_joint7": -1.5}),
+])
+def test_a_fast_path_is_followed_within_the_forces_of_the_servos(motet, robot, scene, joints):
+    """At full speed and with all joints at once, the hand is off by less than 3 mm and 2 mrad at every
+    moment."""
+    world = World(load(robot, scene, motet))
+    model, mj = world.model, world.model.mj
+    there, back = world.target.copy(), world.target.copy()
+    for joint, way in joints.items():
+        there[model.controls[joint]] += way
+    back[:3] += 0.3 * (there - back)[:3]
+    path = timed([world.target, there, back], model)
+    path = path.blended(model, lambda *_: True)
+    start = world.now
+    while world.now - start < path.end:
+        world.step(*path.at(world.now - start + world.tick / 2.0))
+        off = tip_error(world, path.at(world.now - start - mj.opt.timestep)[0])
+        assert np.all(off < [0.003, 0.002]), (world.now - start, off)
+        assert np.all(np.abs(world.data.actuator_force) < 0.9 * mj.actuator_forcerange[:, 1])
 
 
 def test_a_path_turns_round_only_at_rest(hsr):
@@ -130,3 +159,37 @@ def test_a_search_for_a_place_lets_time_pass(motet):
         driver.world.step(here)
     assert len(times) > 30
     assert all(after - before > 0.05 for before, after in zip(times, times[1:]))
+
+
+def test_what_is_near_anyway_comes_no_nearer(mover):
+    """A robot that stands at the table may stay as near to it, and not drive through it."""
+    from motet_mujoco.clearance import Clearance
+
+    world = mover.world
+    low, high = world.bounds("kitchen_table")
+    start = world.target.copy()
+    clearance = Clearance(world, mover.beliefs)
+    start[:2] = [low[0] - 0.5, (low[1] + high[1]) / 2.0]
+    while not clearance.near(start):
+        start[0] += 0.01
+    into, away = start.copy(), start.copy()
+    into[0], away[0] = (low[0] + high[0]) / 2.0, start[0] - 0.2
+    assert clearance.is_free(start, start, [start, away])
+    assert not clearance.is_free(start, start, [into])
+
+
+def test_a_way_back_that_takes_too_long_is_left_out(mover):
+    x, y, yaw = mover.world.base()
+    here, base = [float(x), float(y), float(yaw)], [float(x) - 0.5, float(y), float(yaw)]
+    witness = {"path": [{"base": here, "joints": {}}, {"base": base, "joints": {}}]}
+    mover.planner = SimpleNamespace(plan=lambda *_: (witness, None))
+
+    def seconds(deadline):
+        motion = Motion({"leaves": {"base": base}, "deadline_secs": deadline}, mover.world.now)
+        before = mover.world.now
+        for _ in mover.stand(mover.leaves(motion, mover.goal), motion):
+            mover.world.step(mover.goal, mover.rate, mover.change)
+        return mover.world.now - before
+
+    assert seconds(1.5) == 0.0
+    assert seconds(30.0) > 1.0

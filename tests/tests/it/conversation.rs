@@ -6,6 +6,7 @@ use motet_planner::Builtin;
 use motet_planner::dialogue::{
     Conversation, DialogueObserver, DialogueSetup, Kind, NoOperator, OnInstruction, Outcome, Person, Problem,
 };
+use motet_robots::scene::{Entity, Placement};
 use motet_runtime::memory::Memory;
 use motet_runtime::{Effect, EngineSettings, Pattern, Query, RunControl, RunEnd, Time, Truth};
 use motet_sim::{Faults, Sim, SimOptions};
@@ -490,21 +491,25 @@ fn conversation_pauses_for_an_instruction_if_it_shall() {
 
 #[test]
 fn conversation_looks_where_it_does_not_know() {
-    let mut setting = setting("hsr");
-    let coke = setting.scene.entities.get_mut("coke").unwrap();
-    let there = coke.clone();
-    (coke.on, coke.pose) = (None, None);
-    let mut world = setting.scene.clone();
-    world.entities.insert("coke".into(), there);
-    let options = SimOptions { world: Some(world), ..SimOptions::default() };
-    let mut sim = Sim::new(&setting.robot, &setting.scene, options);
-    let mut talk = Conversation::new(&setting);
-    let (outcome, _, lines) = carried_out(&mut talk, &mut sim, "where is the coke?", &[]);
-    assert_eq!((outcome, lines.policies), (Outcome::Done, 1), "{:?}", lines.answers);
-    assert!(lines.answers[0].as_ref().unwrap().starts_with("The coke can is"), "{:?}", lines.answers);
-    // What was seen is remembered.
-    let (outcome, _, lines) = carried_out(&mut talk, &mut sim, "where is the coke?", &[]);
-    assert_eq!((outcome, lines.policies), (Outcome::Done, 0), "{:?}", lines.answers);
+    // From where it is, and then at one surface after the other.
+    for (xyz, on, policies) in [([1.98, 0.5, 0.77], "kitchen_table", 1), ([-1.72, 1.0, 1.05], "shelf", 2)] {
+        let mut setting = setting("hsr");
+        let coke = setting.scene.entities.get_mut("coke").unwrap();
+        let pose = Some(Placement { xyz, ..Placement::default() });
+        let there = Entity { on: Some(on.into()), pose, ..coke.clone() };
+        (coke.on, coke.pose) = (None, None);
+        let mut world = setting.scene.clone();
+        world.entities.insert("coke".into(), there);
+        let options = SimOptions { world: Some(world), ..SimOptions::default() };
+        let mut sim = Sim::new(&setting.robot, &setting.scene, options);
+        let mut talk = Conversation::new(&setting);
+        let (outcome, _, lines) = carried_out(&mut talk, &mut sim, "where is the coke?", &[]);
+        assert_eq!((outcome, lines.policies), (Outcome::Done, policies), "{:?}", lines.answers);
+        assert!(lines.answers[0].as_ref().unwrap().starts_with("The coke can is"), "{:?}", lines.answers);
+        // What was seen is remembered.
+        let (outcome, _, lines) = carried_out(&mut talk, &mut sim, "where is the coke?", &[]);
+        assert_eq!((outcome, lines.policies), (Outcome::Done, 0), "{:?}", lines.answers);
+    }
 }
 
 #[test]

@@ -205,6 +205,13 @@ fn diagnostics_unbound_name_tells_the_path_and_what_to_write() {
 }
 
 #[test]
+fn scope_failure_hides_a_name_only_in_its_handler() {
+    let text = "policy p for hsr {\n    go(kitchen_table)\n    within 10 s { let mug = detect(\"red mug\") \
+                }\n    try { say(\"ready\") } catch any as mug { say(mug.text) }\n    pick(mug)\n}\n";
+    assert_eq!(errors(text), [""; 0]);
+}
+
+#[test]
 fn conditions_read_bindings_with_and_without_their_sign() {
     let session = session();
     let text = |condition: &str| {

@@ -87,15 +87,8 @@ pub(super) fn run(file: &Path, args: &RunArgs, report: &mut Report) -> Result<Ex
     catch_interrupts()?;
     let shard = args.jobs.shard();
     let found = inputs.documents().enumerate().filter_map(|(index, found)| {
-        let found = found.and_then(|found| match &mut *results.borrow_mut() {
-            _ if !shard.has(index) => {
-                progress.skip(found.size());
-                Ok(None)
-            }
-            Some(results) => Ok(Some((results.done(&found)?, found))),
-            None => Ok(Some((None, found))),
-        });
-        found.transpose()
+        let due = |found| ResultFile::due(&results, shard.has(index), found, &progress);
+        found.and_then(due).transpose()
     });
     let (mut worst, mut tally, mut policies) = (Exit::Success, [0_usize; 2], 0_usize);
     let work = |found: Result<(Option<_>, Document), CliError>| {

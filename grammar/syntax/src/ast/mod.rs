@@ -22,7 +22,7 @@ pub const MAX_NESTING: usize = 64;
 /// The largest document, in bytes.
 pub const MAX_BYTES: usize = 16 * 1024 * 1024;
 /// The most steps that one document may hold.
-pub const MAX_STEPS: usize = 100_000;
+pub const MAX_STEPS: usize = 20_000;
 /// The most words, numbers, texts and marks (in JSON: keys and values) that one document may hold.
 pub const MAX_TOKENS: usize = 1_000_000;
 /// The most mistakes that are told of one document: a stage that finds more leaves out the rest.

@@ -262,11 +262,7 @@ impl Machine {
         let context = Arc::clone(&self.context);
         let automaton = &context.automaton;
         match automaton.op(state.op) {
-            Op::Number(range) if state.pos == 0 => Some((self.range_of(&state, *range), Digits::default())),
-            Op::Number(range) => {
-                let digits = Digits::unpack((state.pos, state.lo, state.hi));
-                Some((self.range_of(&state, *range), digits))
-            }
+            Op::Number(range) => Some((self.range_of(&state, *range), state.digits())),
             // The number may be that of a step that is not in the log yet.
             Op::Fork { .. } if self.least_hold(&state).is_some() => None,
             Op::Fork { other, .. } => match automaton.behind_actions(*other) {

@@ -6,6 +6,7 @@
 
 use crate::automaton::{Automaton, Meaning, Op, OpId};
 use crate::grammar::{BlockRole, Constant, NodeKind};
+use crate::subset::Digits;
 
 /// An index into an arena; entry 0 is the bottom.
 pub(crate) type Id = u32;
@@ -29,6 +30,11 @@ pub(crate) struct State {
 pub(crate) const UNSEEN: u32 = u32::MAX;
 
 impl State {
+    /// The digits so far of the number that is being written.
+    pub(crate) fn digits(&self) -> Digits {
+        if self.pos == 0 { Digits::default() } else { Digits::unpack((self.pos, self.lo, self.hi)) }
+    }
+
     /// The lookahead state of an optional part.
     pub(crate) fn lookahead(&self) -> Option<Id> {
         if self.lo == UNSEEN { None } else { (self.hi >> 2).checked_sub(1) }

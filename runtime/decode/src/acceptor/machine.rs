@@ -7,7 +7,6 @@ use super::event_log::{ArenaMark, Arenas, CallFrame, Event, Id, State, UNSEEN};
 use super::proof_cursor::Oracle;
 use crate::automaton::{Op, OpId, WordEnd};
 use crate::grammar::Guard;
-use crate::subset::Digits;
 
 /// Bytes reserved beyond the shortest completion: a condition that may refute nothing can need more than
 /// the shortest one, and a `not` around it.
@@ -293,11 +292,7 @@ impl Machine {
                 Op::Name(naming) => return self.name(state, *naming, byte),
                 Op::Number(range) => {
                     let range = &self.range_of(&state, *range);
-                    let digits = if state.pos == 0 {
-                        Digits::default()
-                    } else {
-                        Digits::unpack((state.pos, state.lo, state.hi))
-                    };
+                    let digits = state.digits();
                     if let Some(next) = digits.push(byte, range) {
                         (state.pos, state.lo, state.hi) = next.pack();
                         return Some(state);

@@ -298,17 +298,7 @@ impl Turn<'_> {
 
     /// A judge of conditions in the world as it is believed to be.
     fn judge(&mut self, fresh: Freshness) -> Evaluator<'_> {
-        let (beliefs, bindings) = (&mut self.run.beliefs, &self.run.bindings);
-        Evaluator {
-            graph: &self.plan.graph,
-            beliefs,
-            bindings,
-            each: None,
-            fresh,
-            busy: &[],
-            vague: false,
-            missing: None,
-        }
+        Evaluator { missing: None, ..self.judge_missing(fresh) }
     }
 
     /// The same, which notes in `run.missing` what would have to be observed.

@@ -61,8 +61,9 @@ pub struct RemoteDriver {
     breaches: u32,
     heard_at: Instant,
     rate: LineRate,
-    /// Feedback of this second.
+    /// Feedback and reported facts of this second.
     feedback: LineRate,
+    facts: LineRate,
     said_at: Instant,
     /// It was asked for more than a sign of life since it said something.
     is_asked: bool,
@@ -143,6 +144,7 @@ impl RemoteDriver {
             heard_at: Instant::now(),
             rate: LineRate::default(),
             feedback: LineRate::default(),
+            facts: LineRate::default(),
             said_at: Instant::now(),
             is_asked: false,
             restarts: patience.restarts,

@@ -1,9 +1,7 @@
 //! Lines to and from a driver. Two threads read and write, so that a driver that does not listen holds up
 //! nobody.
 
-use super::protocol::{
-    MAX_BEFORE_ANSWER, MAX_BREACHES, MAX_LINE_BYTES, MAX_LINES_A_SECOND, MAX_LOOK_BYTES, MAX_WAITING,
-};
+use super::protocol::{MAX_BEFORE_ANSWER, MAX_BREACHES, MAX_LINE_BYTES, MAX_LOOK_BYTES, MAX_WAITING};
 use motet_runtime::Time;
 use std::fmt;
 use std::io::{self, BufRead, BufReader, Read, Write};
@@ -33,8 +31,8 @@ pub enum LinkError {
     Deaf,
     /// It said a line that is too long.
     Flood,
-    /// It said more lines in a second than are read.
-    Hasty,
+    /// It said more than so many of something in a second.
+    Hasty(u32, &'static str),
     /// It said more before an answer than is kept.
     Crowded,
     /// It broke more promises than are borne.
@@ -68,7 +66,7 @@ impl fmt::Display for LinkError {
             Self::Flood => {
                 write!(f, "the driver said a line of more than {MAX_LINE_BYTES} bytes, or a larger picture")
             }
-            Self::Hasty => write!(f, "the driver said more than {MAX_LINES_A_SECOND} lines in a second"),
+            Self::Hasty(most, what) => write!(f, "the driver said more than {most} {what} in a second"),
             Self::Crowded => {
                 write!(f, "the driver said more than {MAX_BEFORE_ANSWER} things before it answered a call")
             }

@@ -195,6 +195,22 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
         Outcome::Failed(latest.unwrap_or_else(nothing))
     }
 
+    /// Looks for an object from where the robot is, and then at one surface after the other. Nobody is asked:
+    /// who wants to know where it is cannot tell. What is asked for meanwhile is pursued.
+    pub(super) fn search(&mut self, thing: &SmolStr, driver: &mut dyn Driver) -> Outcome {
+        let scene = self.talk.known.scene(&self.talk.setting.scene);
+        let searches = [self.looking(None, thing, &scene), self.seeking(&scene.called(thing), &scene)];
+        let mut outcome = Outcome::Failed(Problem::nothing("I have no way to look for it."));
+        for planned in searches.into_iter().flatten() {
+            match self.run(planned, driver, &scene) {
+                RoundResult::Round => return self.pursue(driver),
+                RoundResult::Over(outcome) => return outcome,
+                RoundResult::Problem(problem, _) => outcome = Outcome::Failed(problem),
+            }
+        }
+        outcome
+    }
+
     /// Takes in what is in view before a plan.
     fn look(&mut self, driver: &mut dyn Driver) {
         if driver.capabilities().detections {

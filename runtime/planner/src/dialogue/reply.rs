@@ -37,7 +37,10 @@ impl Conversation<'_> {
         let mut answer = self.answer_here(question, driver, now);
         if let (None, Some(request)) = (&answer, self.look_request(question)) {
             let mut manager = DialogueManager::new(self, (planner, person, &mut *watcher), &request, now);
-            let outcome = manager.pursue(driver);
+            let outcome = match (question.topic, question.things.first()) {
+                (Topic::Location | Topic::Placed, Some(thing)) => manager.search(thing, driver),
+                _ => manager.pursue(driver),
+            };
             now = manager.now;
             if outcome == Outcome::Stopped {
                 return (outcome, now);

@@ -2,9 +2,9 @@
 
 use super::super::link::LinkError;
 use super::super::protocol::{
-    DriverCall, DriverMessage, DriverReport, EmptyParams, FeedbackParams, GoalParams, MAX_FEEDBACK,
-    MAX_FEEDBACK_A_SECOND, MAX_KIND_BYTES, MAX_LINES_A_SECOND, MAX_WAITING, QueryParams, QueryResult,
-    REFUSED, RefusedData, RpcError, SAYINGS, hear, heard,
+    DriverCall, DriverMessage, DriverReport, EmptyParams, FeedbackParams, GoalParams, MAX_FACTS_A_SECOND,
+    MAX_FEEDBACK, MAX_FEEDBACK_A_SECOND, MAX_KIND_BYTES, MAX_LINES_A_SECOND, MAX_WAITING, QueryParams,
+    QueryResult, REFUSED, RefusedData, RpcError, SAYINGS, hear, heard,
 };
 use super::{LineFrom, RemoteDriver, Waiting, failed, nonsense};
 use motet_runtime::{Answer, DriverEvent, FailureReport, GoalId, OWN_MOTION, Outcome};
@@ -47,7 +47,7 @@ impl RemoteDriver {
         self.log.line(LineFrom::Driver, line);
         (self.heard_at, self.is_asked) = (Instant::now(), false);
         if self.rate.exceeds(MAX_LINES_A_SECOND, self.heard_at) {
-            return self.broke(&LinkError::Hasty);
+            return self.broke(&LinkError::Hasty(MAX_LINES_A_SECOND, "lines"));
         }
         match hear(line) {
             Ok(DriverMessage::Answer(id, answer)) => {
@@ -98,6 +98,9 @@ impl RemoteDriver {
                 if self.runs(goal, "is lost") {
                     self.report(DriverEvent::Lost { goal });
                 }
+            }
+            DriverReport::Observed(_) if self.facts.exceeds(MAX_FACTS_A_SECOND, self.heard_at) => {
+                self.broke(&LinkError::Hasty(MAX_FACTS_A_SECOND, "`observed`"));
             }
             DriverReport::Observed(observed) => {
                 let (query, answer) = (observed.query, observed.answer);
