@@ -187,6 +187,26 @@ impl Condition {
         self.any(&|part| part.terms().any(|term| term.any(is_one)))
     }
 
+    /// Returns whether the condition is about no fact, measure or binding, so that nothing changes it.
+    pub(crate) fn is_constant(&self) -> bool {
+        let is_open = |part: &Self| match part {
+            Self::Fact(_) | Self::MonitoredMeasure(_) | Self::MonitoredFluent(_) | Self::Unknown => true,
+            Self::Literal(_) | Self::Compare(..) | Self::Not(_) | Self::All(_) | Self::AnyOf(_) => false,
+        };
+        let is_variable = |term: &Term| {
+            matches!(
+                term,
+                Term::Binding(_)
+                    | Term::Param(_)
+                    | Term::Result
+                    | Term::Each
+                    | Term::Measure(..)
+                    | Term::Unknown
+            )
+        };
+        !self.any(&is_open) && !self.any_term(&is_variable)
+    }
+
     /// Highest index of a parameter of the contract in the condition.
     pub(crate) fn last_param(&self) -> Option<u16> {
         let within = self.parts().iter().filter_map(Self::last_param);

@@ -10,7 +10,6 @@ use super::assume::Outcome;
 use super::collector::Collector;
 use super::diagnostics::{Conflict, NeverCaught, NeverFires, TooDeep, Unreached};
 use super::evaluation::CallFrame;
-use super::monitor::constant;
 use super::{MAX_FIXPOINTS, PolicyEnd, Prover, Volatile};
 use crate::analysis::{Domain, Enclosing, Exit, Loop, Round};
 use crate::declare::Library;
@@ -149,7 +148,7 @@ impl<'a> Domain<'a> for Prover<'a> {
             Some(StepKind::If { .. }) => self.assume_test(id, condition, outcome),
             _ => self.assume(condition, outcome, Cause::step(id), CallFrame::default()),
         };
-        let step = step.filter(|_| truth && !is_possible && constant(condition));
+        let step = step.filter(|_| truth && !is_possible && condition.is_constant());
         if let Some(StepKind::Repeat { until: Some((_, span)), .. }) = step.map(|step| &step.kind) {
             let what = "the loop always runs out of rounds";
             self.tell_once(NeverFires { span: *span, what }.into());
@@ -166,7 +165,7 @@ impl<'a> Domain<'a> for Prover<'a> {
     }
 
     fn await_at(&mut self, id: StepId, condition: &Condition) {
-        let never = constant(condition) && self.evaluate(condition, CallFrame::default()).is_false();
+        let never = condition.is_constant() && self.evaluate(condition, CallFrame::default()).is_false();
         if let Some(step) = self.program.step(id).filter(|_| never) {
             self.tell_once(NeverFires { span: step.span, what: "the `wait` can only time out" }.into());
             self.control.live = false;

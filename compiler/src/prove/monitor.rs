@@ -88,8 +88,10 @@ impl<'a> Prover<'a> {
         };
         self.state.watched.pop();
         self.state.volatile.truncate(volatile);
-        for when in whens {
-            self.fire(id, when, &states, mark);
+        let mut left = whens;
+        while let Some((when, later)) = left.split_first() {
+            self.fire(id, (when, later), &states, mark);
+            left = later;
         }
         self.control.fixpoints -= 1;
         self.join(&mark, end.as_slice());
@@ -118,7 +120,7 @@ impl<'a> Prover<'a> {
             Reaction::End { kind: EndKind::Cannot | EndKind::Replan, .. } => !cleaned,
             Reaction::Restart { .. } | Reaction::Resume { .. } | Reaction::End { .. } => false,
         };
-        outside && (matches!(when.reaction, Reaction::Timeout) || !constant(&when.condition))
+        outside && (matches!(when.reaction, Reaction::Timeout) || !when.condition.is_constant())
     }
 
     /// Proves the body of a monitor whose reactions need no proof.
@@ -149,7 +151,7 @@ impl<'a> Prover<'a> {
             if self.assume_at(id, &when.condition, false) {
                 continue;
             }
-            if !goes_on || constant(&when.condition) {
+            if !goes_on || when.condition.is_constant() {
                 self.control.live = false;
                 continue;
             }
@@ -401,7 +403,7 @@ impl<'a> Prover<'a> {
             self.doubt(condition, cause);
             return true;
         }
-        if constant(condition) {
+        if condition.is_constant() {
             return false;
         }
         self.back_to(here);
@@ -483,9 +485,10 @@ impl<'a> Prover<'a> {
     }
 
     /// Proves a reaction from the states in which it can start.
-    fn fire(&mut self, id: StepId, when: &'a When, states: &Delta, mark: usize) {
+    fn fire(&mut self, id: StepId, (when, later): (&'a When, &[When]), states: &Delta, mark: usize) {
         let partitions = self.state.partitions.clone();
         self.follow(states);
+        self.forget_later(id, later, mark);
         self.control.live = self.overtake(id, &when.condition);
         if self.control.live {
             self.react(when);
@@ -494,6 +497,27 @@ impl<'a> Prover<'a> {
         }
         self.restore(&mark);
         self.state.partitions = partitions;
+    }
+
+    /// Leaves open which facts hold only because a later condition of a monitor, or one of a monitor in its
+    /// body, does not: it may begin to hold at the same time, and the earlier one fires.
+    fn forget_later(&mut self, id: StepId, later: &[When], mark: usize) {
+        let program = self.program;
+        for (fluent, key) in self.state.facts.touched(mark) {
+            let value = self.state.facts.get(fluent, key);
+            let is_later = |cause: Cause| {
+                cause.as_step().is_some_and(|by| match program.step(by).map(|step| &step.kind) {
+                    Some(StepKind::Monitor { .. }) if by == id => {
+                        later.iter().any(|when| mentions(&when.condition, fluent))
+                    }
+                    Some(StepKind::Monitor { .. }) => program.around(by).any(|(around, _)| around == id),
+                    _ => false,
+                })
+            };
+            if is_later(value.yes) || is_later(value.no) {
+                self.state.facts.set(fluent, key, TruthSet::open(Cause::step(id)));
+            }
+        }
     }
 }
 
@@ -515,26 +539,6 @@ pub(super) struct LastingWhen<'a> {
     by: StepId,
     /// Step of its body that has made it certain.
     step: StepId,
-}
-
-/// Returns whether a condition is constant.
-pub(super) fn constant(condition: &Condition) -> bool {
-    let is_open = |part: &Condition| {
-        matches!(
-            part,
-            Condition::Fact(_)
-                | Condition::MonitoredMeasure(_)
-                | Condition::MonitoredFluent(_)
-                | Condition::Unknown
-        )
-    };
-    let is_variable = |term: &Term| {
-        matches!(
-            term,
-            Term::Binding(_) | Term::Param(_) | Term::Result | Term::Each | Term::Measure(..) | Term::Unknown
-        )
-    };
-    !condition.any(&is_open) && !condition.any_term(&is_variable)
 }
 
 /// Collects the facts whose truth does not follow from that of the condition; `known` is the truth of the

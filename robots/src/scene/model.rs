@@ -148,16 +148,22 @@ impl Entity {
     /// Makes a place of which only the pose is known.
     #[must_use]
     pub fn place(id: SmolStr, pose: Placement) -> Self {
+        Self { fixed: true, ..Self::new(id, SmolStr::new_static(kinds::PLACE), Some(pose)) }
+    }
+
+    /// Entity of which only the kind is known, and perhaps the pose.
+    #[must_use]
+    pub fn new(id: SmolStr, kind: SmolStr, pose: Option<Placement>) -> Self {
         Self {
             id,
-            kind: SmolStr::new_static(kinds::PLACE),
+            kind,
             class: SmolStr::default(),
             names: Vec::new(),
             categories: Vec::new(),
-            pose: Some(pose),
+            pose,
             shape: None,
             mass_kg: None,
-            fixed: true,
+            fixed: false,
             on: None,
             inside: None,
             visible: None,
@@ -167,6 +173,18 @@ impl Entity {
             fields: IndexMap::new(),
             spans: EntitySpans::default(),
         }
+    }
+
+    /// Extents along its own axes, in m; `None` of a mesh.
+    #[must_use]
+    pub fn extents(&self) -> Option<[f64; 3]> {
+        Some(match *self.shape.as_ref()? {
+            EntityShape::Box(extents) => extents,
+            EntityShape::Cylinder { radius, height } => [2.0 * radius, 2.0 * radius, height],
+            EntityShape::Sphere { radius } => [2.0 * radius; 3],
+            EntityShape::Capsule { radius, height } => [2.0 * radius, 2.0 * radius, height + 2.0 * radius],
+            EntityShape::Mesh { .. } => return None,
+        })
     }
 
     /// Fluent between a thing and this entity as its support: `in` for a container, `on` for anything else.

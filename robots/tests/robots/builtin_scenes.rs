@@ -1,7 +1,7 @@
 //! The rooms that are built in: nothing stands in anything else, and what stands on something does so.
 
 use motet_robots::builtin::{BuiltinScene, SCENES};
-use motet_robots::scene::{self, Entity, EntityShape, Scene};
+use motet_robots::scene::{self, Entity, Scene};
 use motet_syntax::{FileId, Source};
 
 /// Gaps and overlaps that do not count, in m.
@@ -20,14 +20,7 @@ fn rooms() -> impl Iterator<Item = (&'static str, Scene)> {
 
 /// The box around an entity, whose turns are quarters.
 fn bounds(entity: &Entity) -> Option<Bounds> {
-    let (pose, shape) = (entity.pose?, entity.shape.as_ref()?);
-    let mut extents = match *shape {
-        EntityShape::Box(extents) => extents,
-        EntityShape::Cylinder { radius, height } => [2.0 * radius, 2.0 * radius, height],
-        EntityShape::Sphere { radius } => [2.0 * radius; 3],
-        EntityShape::Capsule { radius, height } => [2.0 * radius, 2.0 * radius, height + 2.0 * radius],
-        EntityShape::Mesh { .. } => return None,
-    };
+    let (pose, mut extents) = (entity.pose?, entity.extents()?);
     let quarters = pose.rpy[2] / std::f64::consts::FRAC_PI_2;
     if quarters.round() as i64 % 2 != 0 {
         extents.swap(0, 1);

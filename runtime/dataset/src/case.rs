@@ -9,7 +9,7 @@ use rand_xoshiro::SplitMix64;
 use smol_str::SmolStr;
 
 use crate::random::Draw;
-use crate::scenery::{HIGH, TRIES, extents, is_bin, spot};
+use crate::scenery::{HIGH, TRIES, is_bin, spot};
 use crate::wordings::{Task, Wordings};
 
 /// One conversation to record: a request, and the failures on its way.
@@ -101,14 +101,8 @@ fn plain(scene: &Scene, task: Task, wording: &str, draw: &mut SplitMix64) -> Opt
         task: SmolStr::new_static(task.name()),
         request: fill(wording, "{place}", &the(scene, place, draw)?),
         goal: Some(goal),
-        failures: Vec::new(),
-        real: scene.clone(),
-        hidden: None,
-        faults: Faults::default(),
-        answers: Vec::new(),
-        is_given_up: false,
         policy: None,
-        update: None,
+        ..recorded(scene, "", "")
     })
 }
 
@@ -250,7 +244,7 @@ fn hide(real: &mut Scene, thing: &Entity, goal: Option<&Entity>, draw: &mut Spli
     let places: Vec<&Entity> = real.entities.values().filter(fits).collect();
     let place = (*draw.pick(&places)?).clone();
     let called = the(real, &place, draw)?;
-    let size = thing.shape.as_ref().and_then(extents)?;
+    let size = thing.extents()?;
     let pose = (0..TRIES).find_map(|_| spot(real, &place, size, draw))?;
     let hidden = real.entities.get_mut(&thing.id)?;
     (hidden.on, hidden.inside, hidden.pose) = (None, None, Some(pose));

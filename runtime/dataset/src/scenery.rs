@@ -88,11 +88,9 @@ fn raise(scene: &mut Scene, draw: &mut SplitMix64) {
     };
     let things: Vec<&Entity> = scene.entities.values().filter(stands).collect();
     let (Some(below), Some(thing)) = (draw.pick(&surfaces), draw.pick(&things)) else { return };
-    let size = below.shape.as_ref().and_then(extents);
+    let size = below.extents();
     let below = (*below).clone();
-    let (Some(pose), Some([long, deep, _]), Some([_, _, high])) =
-        (below.pose, size, thing.shape.as_ref().and_then(extents))
-    else {
+    let (Some(pose), Some([long, deep, _]), Some([_, _, high])) = (below.pose, size, thing.extents()) else {
         return;
     };
     let ([x, y, _], id) = (pose.xyz, thing.id.clone());
@@ -195,7 +193,7 @@ const BETWEEN: f64 = 0.12;
 
 /// Puts a thing somewhere: its pose and its relation to what it is on or in. False where no spot was free.
 pub(crate) fn stand(scene: &mut Scene, thing: &mut Entity, inside: f64, draw: &mut SplitMix64) -> bool {
-    let Some([wide, deep, high]) = thing.shape.as_ref().and_then(extents) else { return false };
+    let Some([wide, deep, high]) = thing.extents() else { return false };
     let is_empty_space = |entity: &&Entity| match entity.kind.as_str() {
         kinds::CONTAINER => !is_bin(entity) && entity.locked != Some(true),
         kinds::SURFACE => true,
@@ -225,7 +223,7 @@ pub(crate) fn spot(
     draw: &mut SplitMix64,
 ) -> Option<Placement> {
     let goes_in = holder.kind == kinds::CONTAINER;
-    let (pose, [along, across, height]) = (holder.pose?, holder.shape.as_ref().and_then(extents)?);
+    let (pose, [along, across, height]) = (holder.pose?, holder.extents()?);
     let radius = wide.max(deep) / 2.0;
     let (free_x, free_y) = (along / 2.0 - radius - EDGE[0], across / 2.0 - radius - EDGE[0]);
     if free_x < 0.0 || free_y < 0.0 || (goes_in && high > height - 0.04) {
@@ -261,7 +259,7 @@ fn near_edge(free_x: f64, free_y: f64, draw: &mut SplitMix64) -> (f64, f64) {
 
 /// True if an entity is too close to a spot for a thing of this radius.
 fn near(other: &Entity, [x, y, _]: [f64; 3], radius: f64) -> bool {
-    let (Some(pose), Some([wide, deep, _])) = (other.pose, other.shape.as_ref().and_then(extents)) else {
+    let (Some(pose), Some([wide, deep, _])) = (other.pose, other.extents()) else {
         return false;
     };
     let [other_x, other_y, _] = pose.xyz;
@@ -270,17 +268,6 @@ fn near(other: &Entity, [x, y, _]: [f64; 3], radius: f64) -> bool {
 
 fn millimetres(value: f64) -> f64 {
     (value * 1e3).round() / 1e3
-}
-
-/// The extents of a shape along its own axes, in m; none of a mesh.
-pub(crate) fn extents(shape: &EntityShape) -> Option<[f64; 3]> {
-    Some(match *shape {
-        EntityShape::Box(extents) => extents,
-        EntityShape::Cylinder { radius, height } => [2.0 * radius, 2.0 * radius, height],
-        EntityShape::Sphere { radius } => [2.0 * radius; 3],
-        EntityShape::Capsule { radius, height } => [2.0 * radius, 2.0 * radius, height + 2.0 * radius],
-        EntityShape::Mesh { .. } => return None,
-    })
 }
 
 #[cfg(test)]

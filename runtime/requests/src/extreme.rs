@@ -3,7 +3,7 @@
 //!
 //! A measure that is unknown, or too close to tell, decides nothing: then the robot asks.
 
-use motet_robots::scene::{Entity, EntityShape, Scene};
+use motet_robots::scene::Scene;
 use motet_stdlib::lang::entities;
 use smol_str::SmolStr;
 
@@ -38,8 +38,8 @@ fn measure(
             let [along, across] = [x - from[0], y - from[1]];
             Some((along * along + across * across).sqrt())
         }
-        ExtremeKind::Largest | ExtremeKind::Smallest => extents(entity).map(|[x, y, z]| x * y * z),
-        ExtremeKind::Tallest | ExtremeKind::Shortest => extents(entity).map(|[_, _, z]| z),
+        ExtremeKind::Largest | ExtremeKind::Smallest => entity.extents().map(|[x, y, z]| x * y * z),
+        ExtremeKind::Tallest | ExtremeKind::Shortest => entity.extents().map(|[_, _, z]| z),
         ExtremeKind::Heaviest | ExtremeKind::Lightest => entity.mass_kg,
     }
 }
@@ -82,17 +82,6 @@ impl Reader<'_> {
         let [(best, id), (next, _), ..] = measured.as_slice() else { return None };
         ((best - next).abs() > CLEARLY * best.max(*next)).then(|| (*id).clone())
     }
-}
-
-/// Extents of a thing along its own axes in m; none of a mesh.
-fn extents(entity: &Entity) -> Option<[f64; 3]> {
-    Some(match *entity.shape.as_ref()? {
-        EntityShape::Box(extents) => extents,
-        EntityShape::Cylinder { radius, height } => [2.0 * radius, 2.0 * radius, height],
-        EntityShape::Sphere { radius } => [2.0 * radius; 3],
-        EntityShape::Capsule { radius, height } => [2.0 * radius, 2.0 * radius, height + 2.0 * radius],
-        EntityShape::Mesh { .. } => return None,
-    })
 }
 
 #[cfg(test)]

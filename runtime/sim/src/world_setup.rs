@@ -115,7 +115,7 @@ fn entities(scene: &Scene, options: &SimOptions) -> Vec<Entity> {
     let [x, y, heading] = scene.robot.base;
     let mut add = |id: &str, kind: &str, pose| {
         if id != "robot" && !entities.iter().any(|entity| entity.id == id) {
-            entities.push(bare(id, kind, pose));
+            entities.push(Entity::new(id.into(), kind.into(), pose));
         }
     };
     add("start", kinds::PLACE, Some(Placement { xyz: [x, y, 0.0], rpy: [0.0, 0.0, heading] }));
@@ -124,29 +124,6 @@ fn entities(scene: &Scene, options: &SimOptions) -> Vec<Entity> {
         add(id, kind, None);
     }
     entities
-}
-
-/// An entity of which only the kind is known.
-fn bare(id: &str, kind: &str, pose: Option<Placement>) -> Entity {
-    Entity {
-        id: id.into(),
-        kind: kind.into(),
-        class: SmolStr::default(),
-        names: Vec::new(),
-        categories: Vec::new(),
-        pose,
-        shape: None,
-        mass_kg: None,
-        fixed: false,
-        on: None,
-        inside: None,
-        visible: None,
-        open: None,
-        locked: None,
-        travel: None,
-        fields: IndexMap::new(),
-        spans: Default::default(),
-    }
 }
 
 fn thing(entity: &Entity, options: &SimOptions, row: &mut Row) -> Thing {

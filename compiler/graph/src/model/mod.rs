@@ -125,6 +125,23 @@ pub struct Graph {
 }
 
 impl Graph {
+    /// Name of a type as the language writes it: `Object`, `Length`, `List<Text>`.
+    #[must_use]
+    pub fn type_name(&self, ty: &Type) -> String {
+        match ty {
+            Type::Bool => "Bool".to_owned(),
+            Type::Int => "Int".to_owned(),
+            Type::Number => "Number".to_owned(),
+            Type::Text => "Text".to_owned(),
+            Type::Pose => "Pose".to_owned(),
+            Type::Quantity(name) | Type::Case(name) => name.to_string(),
+            Type::Entity(kind) => {
+                self.kinds.get(kind.index()).map(|kind| kind.name.to_string()).unwrap_or_default()
+            }
+            Type::List(inner) => format!("List<{}>", self.type_name(inner)),
+        }
+    }
+
     /// Number of motions that the compiler left to the run.
     #[must_use]
     pub fn deferred_motions(&self) -> usize {

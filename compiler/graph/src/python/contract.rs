@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde_json::json;
 
-use super::term::{quoted, type_name};
+use super::term::quoted;
 use super::writer::{Writer, identifier};
 use crate::model::{
     CallEffect, CallNode, Condition, Fact, FactArg, KindId, Need, Node, NodeId, Term, TextPart, Unsettled,
@@ -179,7 +179,7 @@ impl Writer<'_> {
                 let uses: Vec<_> = uses.map(|resource| &resource.name).collect();
                 let mut declared = json!({"fails": failures.collect::<Vec<_>>(), "uses": uses});
                 if let (Some(result), Some(declared)) = (&primitive.result, declared.as_object_mut()) {
-                    declared.insert("result".to_owned(), type_name(graph, result).into());
+                    declared.insert("result".to_owned(), graph.type_name(result).into());
                 }
                 (&primitive.name, declared)
             })

@@ -3,7 +3,7 @@
 use smol_str::SmolStr;
 use thiserror::Error;
 
-use super::term::{quoted, type_name};
+use super::term::quoted;
 use super::writer::Writer;
 use crate::model::{CallNode, Ending, Graph, Handler, Node, NodeId, NodeKind, ROOT, RegionId, Term, Type};
 
@@ -72,7 +72,7 @@ impl Writer<'_> {
             NodeKind::Let { binding, value } => {
                 let ty = self.binding_type(*binding);
                 let (name, text) = (self.binding(*binding), self.term(value, Some(&ty)));
-                let value = format!("await robot.value({text}, {})", quoted(&type_name(self.graph, &ty)));
+                let value = format!("await robot.value({text}, {})", quoted(&self.graph.type_name(&ty)));
                 self.line(level, &format!("{name} = {value}"));
             }
             NodeKind::Sequence { name, body } => {
@@ -133,7 +133,7 @@ impl Writer<'_> {
             NodeKind::Each { item, list, at_most, body } => {
                 let ty = self.binding_type(*item);
                 let list = self.term(list, Some(&Type::List(Box::new(ty.clone()))));
-                let kind = quoted(&type_name(self.graph, &ty));
+                let kind = quoted(&self.graph.type_name(&ty));
                 let item = self.binding(*item);
                 self.line(level, &format!("for {item} in robot.items({list}, {kind}, at_most={at_most}):"));
                 self.region(*body, level + 1)?;

@@ -3,27 +3,11 @@
 use smol_str::SmolStr;
 
 use super::writer::Writer;
-use crate::model::{Condition, Fact, FactArg, Graph, Term, TextPart, Type, Value};
+use crate::model::{Condition, Fact, FactArg, Term, TextPart, Type, Value};
 
 /// A text as a literal of Python: JSON's escapes are among those of Python.
 pub(super) fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string()
-}
-
-/// Name of a type as the driver protocol has it: `Object`, `Length`, `List<Text>`.
-pub(super) fn type_name(graph: &Graph, ty: &Type) -> String {
-    match ty {
-        Type::Bool => "Bool".to_owned(),
-        Type::Int => "Int".to_owned(),
-        Type::Number => "Number".to_owned(),
-        Type::Text => "Text".to_owned(),
-        Type::Pose => "Pose".to_owned(),
-        Type::Quantity(name) | Type::Case(name) => name.to_string(),
-        Type::Entity(kind) => {
-            graph.kinds.get(kind.index()).map_or_else(String::new, |kind| kind.name.to_string())
-        }
-        Type::List(inner) => format!("List<{}>", type_name(graph, inner)),
-    }
 }
 
 impl Writer<'_> {
@@ -98,7 +82,7 @@ impl Writer<'_> {
                     .map(|part| match part {
                         TextPart::Literal(text) => quoted(text),
                         TextPart::Value(value, ty) => {
-                            let kind = quoted(&type_name(self.graph, ty));
+                            let kind = quoted(&self.graph.type_name(ty));
                             format!("({}, {kind})", self.term(value, Some(ty)))
                         }
                     })

@@ -6,11 +6,10 @@ mod sight;
 pub(crate) use sight::heard;
 pub use sight::{Camera, DepthMap, DetectedThing, Detections, LookParams, LookResult, MovedParams, PngImage};
 
-use motet_graph::{Graph, Type};
+use motet_graph::Graph;
 use motet_runtime::{
     Answer, Capabilities, Command, FailureReport, GoalId, Heard, Outcome, Query, Time, ToldThing,
 };
-use motet_stdlib::lang;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
@@ -435,7 +434,7 @@ impl Hello {
         };
         let primitive = |primitive: &motet_graph::Primitive| CalledPrimitive {
             name: primitive.name.to_string(),
-            result: primitive.result.as_ref().map(|ty| text(graph, ty)),
+            result: primitive.result.as_ref().map(|ty| graph.type_name(ty)),
             fails: fails(primitive),
         };
         Self {
@@ -447,23 +446,6 @@ impl Hello {
             primitives: graph.primitives.iter().map(primitive).collect(),
             state: Vec::new(),
         }
-    }
-}
-
-/// A type as the language writes it.
-fn text(graph: &Graph, ty: &Type) -> String {
-    match ty {
-        Type::Bool => "Bool".to_owned(),
-        Type::Int => "Int".to_owned(),
-        Type::Number => "Number".to_owned(),
-        Type::Text => "Text".to_owned(),
-        Type::Pose => "Pose".to_owned(),
-        Type::Quantity(name) | Type::Case(name) => name.to_string(),
-        Type::Entity(kind) => graph
-            .kinds
-            .get(kind.index())
-            .map_or_else(|| lang::kinds::ENTITY.to_owned(), |kind| kind.name.to_string()),
-        Type::List(inner) => format!("List<{}>", text(graph, inner)),
     }
 }
 
