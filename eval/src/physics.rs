@@ -49,7 +49,7 @@ pub struct Share {
 pub struct Sums {
     /// Shares by kind of motion.
     pub shares: IndexMap<String, Share>,
-    /// Greatest error of a hand without load at the end of its path: m and rad.
+    /// Greatest error of a hand without load along its path: m and rad.
     pub error: [f64; 2],
     /// Simulated seconds.
     pub simulated_secs: f64,

@@ -237,7 +237,7 @@ fn driver_that_misbehaves_is_named_and_stopped_safely() {
                  {{'fact': {{'fluent': 'visible', 'args': [{{'is': {{'entity': 'mug_1'}}}}]}}}}, 'answer': \
                  {{'truth': True}}}}}})\n"
             ),
-            "the driver said more than 2000 `observed` in a second",
+            "the driver said more than 2000 `observed` that are not watched in a second",
         ),
         (
             "keeps silent",

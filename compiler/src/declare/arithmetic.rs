@@ -195,32 +195,11 @@ impl Elaborator<'_> {
     }
 
     fn seconds_from(&mut self, least: f64, expr: &Expr, place: &'static str) -> Option<f64> {
-        let wanted = Expected { ty: Ty::DURATION, place: ValueRole::Named(place) };
-        match self.term_of(expr, wanted) {
-            Term::Number(value) if value.is_finite() && (least..=MAX_SECONDS).contains(&value) => Some(value),
-            Term::Number(value) => {
-                // In the unit in which it is written.
-                let unit = expr.unit().unwrap_or(Unit::Second);
-                let (least, greatest) =
-                    (unit.show(if value < least { least } else { 0.0 }), unit.show(MAX_SECONDS));
-                let actual = unit.show(value);
-                self.report(diagnostics::OutOfRange {
-                    span: expr.span,
-                    place: place.to_owned(),
-                    least,
-                    greatest,
-                    actual,
-                    meant: None,
-                });
-                None
-            }
-            Term::Unknown => None,
-            Term::Binding(id) if self.is_param(id) => None,
-            _ => {
-                self.report(diagnostics::NotConstant { span: expr.span, place });
-                None
-            }
-        }
+        // In the unit in which it is written.
+        let unit = expr.unit().unwrap_or(Unit::Second);
+        self.constant(expr, (Ty::DURATION, place), [least, MAX_SECONDS], |value, end| {
+            unit.show(if end == least && value >= least { 0.0 } else { end })
+        })
     }
 
     /// Returns whether a binding is a parameter, whose value is known only at a call.
@@ -230,17 +209,27 @@ impl Elaborator<'_> {
 
     /// Elaborates a constant part of a whole, from [`LEAST_PART`] to 1.
     pub(crate) fn part(&mut self, expr: &Expr, place: &'static str) -> Option<f64> {
-        let wanted = Expected { ty: Ty::RATIO, place: ValueRole::Named(place) };
-        match self.term_of(expr, wanted) {
-            Term::Number(value) if value >= LEAST_PART => Some(value),
+        let range = [LEAST_PART, 1.0];
+        self.constant(expr, (Ty::RATIO, place), range, |_, part| format!("{} %", percent(part)))
+    }
+
+    /// Elaborates a constant number of a range. `shown` writes a number of the report, given the value.
+    fn constant(
+        &mut self,
+        expr: &Expr,
+        (ty, place): (Ty, &'static str),
+        [least, greatest]: [f64; 2],
+        shown: impl Fn(f64, f64) -> String,
+    ) -> Option<f64> {
+        match self.term_of(expr, Expected { ty, place: ValueRole::Named(place) }) {
+            Term::Number(value) if (least..=greatest).contains(&value) => Some(value),
             Term::Number(value) => {
-                let shown = |part: f64| format!("{} %", percent(part));
                 self.report(diagnostics::OutOfRange {
                     span: expr.span,
                     place: place.to_owned(),
-                    least: shown(LEAST_PART),
-                    greatest: shown(1.0),
-                    actual: shown(value),
+                    least: shown(value, least),
+                    greatest: shown(value, greatest),
+                    actual: shown(value, value),
                     meant: None,
                 });
                 None

@@ -112,7 +112,7 @@ impl Geometry {
         felt: Option<&Grip>,
         things: impl Iterator<Item = Entity>,
     ) -> (Arc<Self>, Arc<Fingerprinted>) {
-        let gripping = felt.and_then(|grip| at.world.gripping(grip));
+        let gripping = felt.and_then(|grip| at.world.gripping(&this.machine, &this.scene, grip));
         let (mut world, mut scene) = (gripping.unwrap_or_else(|| at.world.clone()), None);
         for thing in things {
             match this.scene.entities.get(&thing.id) {

@@ -10,7 +10,7 @@ use smallvec::SmallVec;
 use smol_str::SmolStr;
 
 use crate::declare::{EffectDef, PrimitiveDef, ResourceSet};
-use crate::ir::{Condition, Entity, Fluent, Kind, StepId, Term, Ty};
+use crate::ir::{Condition, Entity, Fact, Fluent, Kind, StepId, Term, Ty};
 
 /// Maximal number of facts that one with symbols may be, before all facts of its fluent are weakened.
 const MAX_INSTANCES: usize = 4096;
@@ -352,6 +352,24 @@ impl Prover<'_> {
             *other == fluent
                 && (key.meets(*changed) || self.has_symbol(fluent, key) || self.has_symbol(fluent, *changed))
         })
+    }
+
+    /// What facts of conditions may be about, but for derived ones.
+    pub(super) fn atoms_of(&self, facts: Vec<&Fact>) -> Vec<Atom> {
+        let mut atoms = Vec::new();
+        for fact in facts {
+            let is_derived = self.library.fluent(fact.fluent).is_some_and(|def| def.derived);
+            let Some(key) = self.key(fact, CallFrame::default()).filter(|_| !is_derived) else { continue };
+            atoms.extend(self.instances((fact.fluent, key)));
+            // What is known of other names may be about the same.
+            let params = self.library.fluent(fact.fluent).map_or(&[][..], |def| &def.params);
+            self.state.facts.written_parts(fact.fluent, |other| {
+                if self.has_symbol(fact.fluent, other) && self.may_be_same(params, key, other) {
+                    atoms.push((fact.fluent, other));
+                }
+            });
+        }
+        atoms
     }
 
     /// Returns whether an argument of a fact is a symbol.

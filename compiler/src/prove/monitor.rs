@@ -186,32 +186,24 @@ impl<'a> Prover<'a> {
         for when in whens {
             free_facts(&when.condition, (false, when.hold_secs == 0.0), &mut free);
         }
-        for fact in free {
-            let is_derived = self.library.fluent(fact.fluent).is_some_and(|def| def.derived);
-            let Some(key) = self.key(fact, CallFrame::default()).filter(|_| !is_derived) else { continue };
-            let value = TruthSet::open(Cause::step(id));
-            let row = |(fluent, key)| Volatile { fluent, key, value, when: None };
-            let mut atoms = self.instances((fact.fluent, key));
-            // What is known of other names may be about the same.
-            let params = self.library.fluent(fact.fluent).map_or(&[][..], |def| &def.params);
-            self.state.facts.written_parts(fact.fluent, |other| {
-                if self.has_symbol(fact.fluent, other) && self.may_be_same(params, key, other) {
-                    atoms.push((fact.fluent, other));
-                }
-            });
-            self.state.volatile.extend(atoms.into_iter().map(row));
-        }
+        let value = TruthSet::open(Cause::step(id));
+        let rows =
+            self.atoms_of(free).into_iter().map(|(fluent, key)| Volatile { fluent, key, value, when: None });
+        self.state.volatile.extend(rows);
     }
 
     /// Records the facts that `resume` reactions change from any of these states as volatile in the body;
     /// returns whether that adds to the rows from `first` on, which belong to this monitor.
     fn rehearse(&mut self, id: StepId, whens: &'a [When], states: &Delta, mark: usize, first: usize) -> bool {
         let mut grown = false;
-        for when in whens {
+        let mut left = whens;
+        while let Some((when, later)) = left.split_first() {
+            left = later;
             let Reaction::Resume { body, .. } = &when.reaction else { continue };
             let (said, partitions) = (self.findings(), self.state.partitions.clone());
             self.control.live = true;
             self.state.facts.replay(states);
+            self.forget_later(id, later);
             self.overtake(id, &when.condition);
             let seen = self.state.facts.mark();
             self.control.rehearsals += 1;
@@ -485,10 +477,10 @@ impl<'a> Prover<'a> {
     }
 
     /// Proves a reaction from the states in which it can start.
-    fn fire(&mut self, id: StepId, (when, later): (&'a When, &[When]), states: &Delta, mark: usize) {
+    fn fire(&mut self, id: StepId, (when, later): (&'a When, &'a [When]), states: &Delta, mark: usize) {
         let partitions = self.state.partitions.clone();
         self.follow(states);
-        self.forget_later(id, later, mark);
+        self.forget_later(id, later);
         self.control.live = self.overtake(id, &when.condition);
         if self.control.live {
             self.react(when);
@@ -499,24 +491,21 @@ impl<'a> Prover<'a> {
         self.state.partitions = partitions;
     }
 
-    /// Leaves open which facts hold only because a later condition of a monitor, or one of a monitor in its
-    /// body, does not: it may begin to hold at the same time, and the earlier one fires.
-    fn forget_later(&mut self, id: StepId, later: &[When], mark: usize) {
+    /// Leaves open the facts of later conditions of a monitor, and of the monitors in its body: they may
+    /// change at the same time, and then this reaction comes first.
+    fn forget_later(&mut self, id: StepId, later: &'a [When]) {
         let program = self.program;
-        for (fluent, key) in self.state.facts.touched(mark) {
-            let value = self.state.facts.get(fluent, key);
-            let is_later = |cause: Cause| {
-                cause.as_step().is_some_and(|by| match program.step(by).map(|step| &step.kind) {
-                    Some(StepKind::Monitor { .. }) if by == id => {
-                        later.iter().any(|when| mentions(&when.condition, fluent))
-                    }
-                    Some(StepKind::Monitor { .. }) => program.around(by).any(|(around, _)| around == id),
-                    _ => false,
-                })
-            };
-            if is_later(value.yes) || is_later(value.no) {
-                self.state.facts.set(fluent, key, TruthSet::open(Cause::step(id)));
+        let mut free = Vec::new();
+        later.iter().for_each(|when| free_facts(&when.condition, (false, false), &mut free));
+        let inside = (id.0 + 1..).map(StepId).map_while(|step| Some((step, program.step(step)?)));
+        for (_, step) in inside.take_while(|(step, _)| program.around(*step).any(|(around, _)| around == id))
+        {
+            if let StepKind::Monitor { whens, .. } = &step.kind {
+                whens.iter().for_each(|when| free_facts(&when.condition, (false, false), &mut free));
             }
+        }
+        for (fluent, key) in self.atoms_of(free) {
+            self.state.facts.set(fluent, key, TruthSet::open(Cause::step(id)));
         }
     }
 }

@@ -62,7 +62,8 @@ impl StepResolver<'_> {
         self.path_with(fork, block, name, unseen, Vec::new())
     }
 
-    /// The same with names of its own, which no step behind it sees: what they hide is seen there again.
+    /// The same with names of its own, which no step behind it sees. A name that hides another one is no
+    /// part of the path: what it hides is seen again.
     pub(super) fn path_with(
         &mut self,
         fork: &mut Fork,

@@ -13,7 +13,7 @@ use super::row::{Do, Names, Node, Row, Step};
 use super::words::{self, Bound, Conditions};
 
 /// The most steps that writing a continuation twice may lead to.
-const MAX_STEPS: usize = 20_000;
+const MAX_STEPS: usize = 10_000;
 
 /// A place in a plan.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]

@@ -4,7 +4,7 @@ import argparse
 import shlex
 import sys
 
-from .begin import WrongStart, whole
+from .begin import WrongStart, told_apart
 from .chance import profile
 from .driver import Driver, Options, stdio
 from .faults import answers, read
@@ -57,10 +57,7 @@ def main(arguments=None):
         said = args.answers + (answers(args.answers_file) if args.answers_file else [])
         model = load(args.robot, args.scene, command)
         told = load(args.robot, args.told, command).scene if args.told else None
-        real = whole(model, command)
-        if real is not model and told is None:
-            # The robot knows no more than the scene says.
-            told = model.scene
+        real, told = told_apart(model, told, command)
         unknown = [one[0] for one in args.walk + args.says if one[0] not in model.people]
         if unknown:
             raise ModelError("the scene has no person `%s`" % unknown[0])

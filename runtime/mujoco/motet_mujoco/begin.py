@@ -36,31 +36,46 @@ def whole(model, command):
     world without them could never show them. What the scene says nothing of, or what has no room, stays
     nowhere."""
     scene = copy.deepcopy(model.scene)
-    entities, is_changed = {entity["id"]: entity for entity in scene["entities"]}, False
-    for thing in entities.values():
-        relation = next((one for one in ("on", "in") if thing.get(one) in entities), None)
-        is_lost = thing["kind"] == "Object" and "shape" in thing and "pose" not in thing
-        if relation is None or not is_lost or scene["robot"].get("holding") == thing["id"]:
-            continue
-        try:
-            lay(scene, thing, relation, entities[thing[relation]])
-            is_changed = True
-        except WrongStart:
-            continue
+    entities = {entity["id"]: entity for entity in scene["entities"]}
+    lost = [thing for thing in entities.values() if thing["kind"] == "Object" and "shape" in thing
+            and "pose" not in thing and scene["robot"].get("holding") != thing["id"]]
+    is_changed, left = False, None
+    # What one of them stands on may be another one.
+    while left != len(lost):
+        left = len(lost)
+        for thing in list(lost):
+            relation = next((one for one in ("on", "in") if thing.get(one) in entities), None)
+            try:
+                if relation is not None:
+                    lay(scene, thing, relation, entities[thing[relation]])
+                    lost.remove(thing)
+                    is_changed = True
+            except WrongStart:
+                continue
     return model_of(model.source, scene, command) if is_changed else model
 
 
-def begun(scene, facts, planner, grips=None):
+def told_apart(model, told, command):
+    """The real model, and the scene that the robot is told of, if it is another one: the robot knows no more than
+    the scene says."""
+    real = whole(model, command)
+    return real, model.scene if told is None and real is not model else told
+
+
+def begun(scene, facts, planner, grips=None, is_told=False):
     """A scene in which facts hold: (fluent, arguments, truth) each. Others than those of hand, doors and places are
-    left to the caller. `grips` are poses of held things in the frame of the tip, with a quaternion x, y, z, w."""
+    left to the caller. `grips` are poses of held things in the frame of the tip, with a quaternion x, y, z, w. In a
+    scene that the robot was told of, things without a pose get none: it does not know where they lie."""
     scene = copy.deepcopy(scene)
     entities = {entity["id"]: entity for entity in scene["entities"]}
     for fluent, args, holds in facts:
         known = [entities.get(one) for one in args]
         if fluent == "open" and known[0] is not None and "travel" in known[0]:
-            known[0]["open"] = holds
+            slide(known[0], holds, entities.values())
         elif fluent == "holding" and known[0] is not None:
             hold(scene, known[0], holds)
+        elif fluent in ("on", "in") and None not in known and holds and is_told and "pose" not in known[0]:
+            relate(known[0], fluent, known[1])
         elif fluent in ("on", "in") and None not in known and holds:
             lay(scene, known[0], fluent, known[1])
     grip = (grips or {}).get(scene["robot"].get("holding"))
@@ -90,14 +105,31 @@ def hold(scene, thing, holds):
         robot.pop("grip", None)
 
 
+def slide(container, is_open, things):
+    """Opens or shuts a container, and takes along what lies in a drawer."""
+    before = drawn(container) if container.get("open") else None
+    container["open"] = is_open
+    after = drawn(container) if is_open else None
+    way = sum((part * sign for part, sign in ((after, 1.0), (before, -1.0)) if part is not None), np.zeros(3))
+    for thing in things:
+        if thing.get("in") == container["id"] and "pose" in thing:
+            thing["pose"]["xyz"] = [float(at) for at in np.array(thing["pose"]["xyz"]) + way]
+
+
+def relate(thing, relation, support):
+    """Says what a thing is on or in, and nothing of where."""
+    for other in ("on", "in", "visible"):
+        thing.pop(other, None)
+    thing[relation] = support["id"]
+
+
 def lay(scene, thing, relation, support):
     """Puts a thing on or into another, at the free place that is nearest to its middle."""
     if thing.get(relation) == support["id"] and "pose" in thing:
         return
     if "pose" not in support or "shape" not in support:
         raise WrongStart("nobody knows where `%s` is, so `%s` cannot begin there" % (support["id"], thing["id"]))
-    for other in ("on", "in"):
-        thing.pop(other, None)
+    relate(thing, relation, support)
     others = [np.array(one["pose"]["xyz"][:2]) for one in scene["entities"] if "pose" in one and one is not thing
               and support["id"] in (one.get("on"), one.get("in"))]
     shape, (x, y, z) = support["shape"], np.array(support["pose"]["xyz"], dtype=float)
@@ -116,5 +148,3 @@ def lay(scene, thing, relation, support):
     up = half_height(shape) if relation == "on" else BOTTOM - half_height(shape)
     high = z + up + half_height(thing.get("shape", {}))
     thing["pose"] = {"xyz": [float(free[0][0]), float(free[0][1]), float(high)], "rpy": [0.0, 0.0, 0.0]}
-    thing[relation] = support["id"]
-    thing.pop("visible", None)

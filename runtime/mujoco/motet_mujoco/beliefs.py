@@ -42,6 +42,8 @@ class Beliefs:
         self.grip = None
         # Things by the people who took them; things that were seen or felt where they are; and where lost things are not.
         self.given, self.seen, self.gone = {}, set(), {}
+        # Things in drawers of which nobody knows how far they are open: (drawer, place when it is closed, pose).
+        self.drawn = {}
         # How far drawers and doors were seen to be open, as shares of their travel.
         self.openings = {}
         # Things of which the host told and the room that was told has none.
@@ -57,9 +59,9 @@ class Beliefs:
             # The scene says how the hand holds what it holds at the start.
             position, quaternion = self.world.pose(thing)
         else:
-            tip, rotation = self.world.tip()
             position, quaternion = np.array(known["xyz"], dtype=float), turned(known)
-            position -= rotation[:, 1] * float(rotation[:, 1] @ (position - tip))
+            half = sight.halves(self.entities[thing].get("shape", {}))[1]
+            position += self.world.tip()[1][:, 1] * self.world.between(position, half)
         self.grip = relative(self.world.tip_frame(), position, quaternion)
         self.gone.pop(thing, None)
         self.given.pop(thing, None)
@@ -112,6 +114,7 @@ class Beliefs:
             return
         self.seen.add(entity)
         self.gone.pop(entity, None)
+        self.drawn.pop(entity, None)
         where, on = self.support_at(entity)
         if where is not None:
             self.given.pop(entity, None)
@@ -224,6 +227,7 @@ class Beliefs:
         if known is not None and entity in self.things():
             self.gone.setdefault(entity, set()).update(known[one] for one in ("on", "in") if one in known)
             known.pop("pose", None)
+            self.drawn.pop(entity, None)
             self.rests(entity, None, None)
             self.given.pop(entity, None)
             self.seen.discard(entity)
@@ -288,18 +292,21 @@ class Beliefs:
             self.carried(container, before, known.get("open"))
 
     def carried(self, drawer, before, is_open):
-        """Moves what lies in a drawer along with it. After a motion that failed, it is somewhere in there."""
+        """Moves what lies in a drawer along with it. After a motion that failed, it is somewhere in there until the
+        drawer is seen."""
         way = self.world.model.drawn(drawer)
         if way is None or before is is_open:
             return
-        for known in self.entities.values():
-            if known.get("in") != drawer or "pose" not in known:
+        for thing, known in self.entities.items():
+            if known.get("in") != drawer:
                 continue
-            if before is None or is_open is None:
-                del known["pose"]
-            else:
-                place = np.array(known["pose"]["xyz"]) + (way if is_open else -way)
-                known["pose"]["xyz"] = [round(float(part), 5) for part in place]
+            if before is not None and "pose" in known:
+                # Where it is while the drawer is closed.
+                self.drawn[thing] = drawer, np.array(known["pose"]["xyz"]) - (way if before else 0.0), known.pop("pose")
+            where, closed, pose = self.drawn.get(thing, (None, None, None))
+            if is_open is not None and where == drawer and "pose" not in known:
+                place = closed + (way if is_open else 0.0)
+                known["pose"] = {**pose, "xyz": [round(float(part), 5) for part in place]}
 
     def locked(self, container):
         """Notes that a drawer or a door does not open."""

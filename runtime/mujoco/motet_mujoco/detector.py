@@ -141,7 +141,6 @@ def describe(points, colours, mask, eye):
     fill = mask.sum() / float((rows[-1] - rows[0] + 1) * (columns[-1] - columns[0] + 1))
     shape = shape_of(points, extent, fill)
     colour = np.median(colours, axis=0)
-    label = "%s %s" % (colour_name(colour), shape)
     seen = min(1.0, mask.sum() / 400.0)
     confidence = (0.5 if is_cut else 0.9) * (0.5 + 0.5 * seen)
     ball = fitted(points, "sphere", max(horizontal, height))
@@ -164,7 +163,7 @@ def describe(points, colours, mask, eye):
         size = np.array([horizontal, horizontal, height])
     else:
         size = np.array([max(extent[0], 0.01), max(extent[1], 0.01), max(height, 0.01)])
-    return Detection(label, centre, size, confidence, colour)
+    return Detection("%s %s" % (colour_name(colour), shape), centre, size, confidence, colour)
 
 
 def middle(points, eye):

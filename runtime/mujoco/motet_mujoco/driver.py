@@ -152,7 +152,7 @@ class Driver:
         planner = Planner(self.command, self.model.source) if self.command else None
         try:
             scene = begun(self.model.scene, facts, planner, grips)
-            self.room = None if self.room is None else begun(self.room, facts, None, grips)
+            self.room = None if self.room is None else begun(self.room, facts, None, grips, is_told=True)
             self.model = model_of(self.model.source, scene, self.command)
         except WrongStart as error:
             raise Error(INVALID_PARAMS, str(error)) from None

@@ -7,6 +7,8 @@ import numpy as np
 STRAIGHT = 0.97
 # Shares of the longest overlap of two legs that are tried.
 SHARES = (1.0, 0.75, 0.5, 0.25)
+# Seconds between two checks of a corner that is cut.
+CHECKED = 0.03
 # Greatest acceleration of the hand while it holds something, in m/s² and rad/s².
 HELD = (1.0, 3.0)
 
@@ -55,7 +57,7 @@ class Path:
             for share in SHARES if most > 0.02 else ():
                 trial = Path(self.strokes, [*overlaps, most * share, *[0.0] * (rest - at)])
                 start = trial.starts[at + 1]
-                times = np.linspace(start, start + most * share, max(int(most * share / 0.1), 3))
+                times = np.linspace(start, start + most * share, max(int(most * share / CHECKED), 3))
                 if is_free(one.points[0], one.points[-1], [trial.at(time)[0] for time in times]):
                     found = most * share
                     break

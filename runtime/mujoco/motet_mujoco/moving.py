@@ -3,11 +3,15 @@
 Its parts are generators that aim the actuators once a tick; a task is made of them.
 """
 
+import copy
+import itertools
+
+import mujoco
 import numpy as np
 
 from .clearance import Clearance
 from .motion import Path, frame_at, gentle, near_turn, timed, witnessed
-from .planner import stand_at
+from .planner import quoted, stand_at
 
 # Differences in m or rad up to which the robot stands at the beginning of a path.
 BEGINS = 0.05
@@ -18,6 +22,12 @@ RETREATS = (0.15, 0.3, 0.45)
 # Distances in m, beyond the reach of the robot, of the base from what something hides: most often it is in or on
 # something larger.
 AROUND = (0.2, 0.1, -0.05)
+# Turns in rad about it, from the direction of the robot.
+TURNS = (0.0, 0.5, -0.5, 1.0, -1.0, 1.5, -1.5, 2.0, -2.0)
+# Way in m of the base up to which a place to put something down from is not compared with others.
+ASIDE = 1.0
+# Heights in m from which the hand may let go of a thing.
+LETS_GO = (0.01, 0.02)
 # Heights in m by which the hand may go back above the way that it came.
 RAISES = (0.06, 0.12, 0.18, 0.24)
 # Distances in m that base and arm keep on a way on which they touch nothing.
@@ -137,16 +147,18 @@ class Mover:
             target[at] = self.goal[at]
         yield from self.follow(self.path([self.goal.copy(), target], share))
 
-    def motion(self, motion, query, fail="unreachable", scene=None):
+    def motion(self, motion, query, fail="unreachable", scene=None, thing=None):
         """Path of the motion of a command, from where the robot stands; else of one of its own, in the room as it is
-        believed to be unless another is given."""
+        believed to be unless another is given. A thing is one that it puts down."""
         witness = motion.witness
         if witness is not None:
             points = self.points(witness)
             if np.abs(points[0] - self.goal)[self.arm_and_base()].max() <= BEGINS:
                 return self.timed(points, witness["path"], motion.speed)
         follows = "its witness begins elsewhere" if witness is not None else "it has no witness"
-        witness, why = self.planner.plan(scene or self.beliefs.now(), query)
+        scene = scene or self.beliefs.now()
+        witness, why = self.planner.plan(scene, query) if thing is None else self.put_witness(
+            scene, query, thing, self.planner.plan)
         if witness is None:
             raise Failed(KINDS.get(why[0], fail), why[1])
         self.planned.append("%s, %s" % (query, follows))
@@ -210,6 +222,9 @@ class Mover:
             if (yield from self.home_again(begun, motion, watch)):
                 return
             strokes = strokes[1:]
+            if self.world.now + self.smooth(Path(strokes)).end > motion.until:
+                # What comes next begins here.
+                return
         last, leaves = strokes[-1].points[-1], self.leaves(motion, begun)
         is_left, is_near = np.abs(leaves - last)[self.arm_and_base()].max() <= 1e-3, self.is_way(last, leaves)
         if not is_left and is_near:
@@ -311,33 +326,72 @@ class Mover:
         return scene
 
     def face(self, container, motion):
-        """Drives to where the inside of an open container shows and is within reach, if it is not so here. True if the
-        robot stands there then."""
+        """Drives to where the inside of an open container shows and is within reach, if it is not so here: with a
+        thing in the hand, to where the hand can put it in. True if the robot stands there then."""
         place, query = self.beliefs.places(container, True, 0.05)[0], "look(%s)" % INSIDE
-        if self.observer.serves(container) and self.planner.ask(self.supposing(INSIDE, place), query)[0] is not None:
+        held = self.room.held()
+
+        def way(stand):
+            return self.way_to_put(held[0], container, stand) if held else 0.0
+
+        is_here = self.observer.serves(container) and way(self.world.base()) <= ASIDE
+        if is_here and self.planner.ask(self.supposing(INSIDE, place), query)[0] is not None:
             return True
-        came = yield from self.around(query, INSIDE, place, place, motion, motion.until - SPARE)
+        came = yield from self.around(query, INSIDE, place, place, motion, motion.until - SPARE, way)
         return came and self.observer.serves(container)
 
-    def around(self, query, one, place, spot, motion, until=np.inf):
-        """Moves the base to where a motion is feasible, at a place near a spot, the nearest directions first. `place` is
-        where an entity is supposed to be. True if there is such a place to which it comes by a time."""
+    def way_to_put(self, thing, on, stand):
+        """Way in m of the base from a place to where the hand puts a thing down; infinite if there is none."""
+        scene = self.beliefs.now()
+        scene["robot"]["base"] = [float(part) for part in stand]
+        witness, _ = self.put_witness(scene, "put(%s, %s)" % (quoted(thing), quoted(on)), thing, self.planner.ask)
+        if witness is None:
+            return np.inf
+        bases = np.array([point["base"][:2] for point in witness["path"]])
+        return float(np.linalg.norm(np.diff(bases, axis=0), axis=1).sum())
+
+    def put_witness(self, scene, query, thing, ask):
+        """(witness, None), or (None, why), of a motion that puts a thing down in a room. Where the fingers would meet
+        what is below it, the hand lets go from a little above."""
+        witness, why = ask(scene, query)
+        for height in LETS_GO:
+            if witness is None and scene["robot"].get("grip"):
+                _, rotation = self.world.tip_frame()
+                up = np.zeros(3)
+                mujoco.mju_rotVecQuat(up, np.array([0.0, 0.0, 1.0]), self.beliefs.held_pose(thing)[1])
+                # As if the thing reached lower.
+                lower = copy.deepcopy(scene)
+                place = np.array(lower["robot"]["grip"]["xyz"]) - rotation.T @ up * height
+                lower["robot"]["grip"]["xyz"] = [float(part) for part in place]
+                witness, _ = ask(lower, query)
+        return witness, None if witness is not None else why
+
+    def around(self, query, one, place, spot, motion, until=np.inf, way=None):
+        """Moves the base to where a motion is feasible, at a place near a spot, the nearest directions first: one from
+        which what comes next has a short way, as `way` says, else the one with the shortest. `place` is where an
+        entity is supposed to be. True if there is such a place to which it comes by a time."""
         model, (x, y, yaw) = self.world.model, self.world.base()
-        towards = float(np.arctan2(y - spot[1], x - spot[0]))
-        for off in AROUND if model.drives else ():
-            for turn in (0.0, 0.5, -0.5, 1.0, -1.0, 1.5, -1.5, 2.0, -2.0):
-                far, angle, scene = model.card[1] + off, towards + turn, self.supposing(one, place)
-                stand = (spot[0] + far * np.cos(angle), spot[1] + far * np.sin(angle), near_turn(angle + np.pi, yaw))
-                scene["robot"]["base"] = [float(part) for part in stand]
-                yield from self.pause(THINKS)
-                if self.planner.ask(scene, query)[0] is None:
-                    continue
-                witness, _ = self.planner.plan(self.beliefs.now(), stand_at(*stand))
-                path = None if witness is None else self.own(witness, motion)
-                if path is not None and self.world.now + path.end <= until:
-                    yield from self.follow(path)
-                    return True
-        return False
+        towards, best, least = float(np.arctan2(y - spot[1], x - spot[0])), None, np.inf
+        for off, turn in itertools.product(AROUND if model.drives else (), TURNS):
+            far, angle, scene = model.card[1] + off, towards + turn, self.supposing(one, place)
+            stand = (spot[0] + far * np.cos(angle), spot[1] + far * np.sin(angle), near_turn(angle + np.pi, yaw))
+            scene["robot"]["base"] = [float(part) for part in stand]
+            if least <= ASIDE or self.world.now + THINKS > until:
+                break
+            yield from self.pause(THINKS)
+            if self.planner.ask(scene, query)[0] is None:
+                continue
+            cost = 0.0 if way is None else way(stand)
+            if best is not None and cost >= least:
+                continue
+            witness, _ = self.planner.plan(self.beliefs.now(), stand_at(*stand))
+            path = None if witness is None else self.own(witness, motion)
+            if path is not None and self.world.now + path.end <= until:
+                best, least = path, cost
+        if best is None or self.world.now + best.end > until:
+            return False
+        yield from self.follow(best)
+        return True
 
     def retreat(self, query):
         """Moves the base a little to where it has room for a motion: against the way that the hand points, or to a

@@ -10,7 +10,7 @@ import numpy as np
 from .camera import NoGraphics
 from .eyes import extent
 from .motion import near_turn, phases
-from .moving import THINKS, Failed, Motion, Mover
+from .moving import INSIDE, SPARE, THINKS, Failed, Motion, Mover
 from .observation import AT_PLACE
 from .planner import quoted, stand_at
 from .world import OPENED
@@ -245,7 +245,7 @@ class Tasks(Mover):
         world, begun = self.world, self.goal.copy()
         if not self.room.holds(thing):
             raise Failed("slipped", "the hand does not hold %s" % thing)
-        path = self.motion(motion, query)
+        path = self.motion(motion, query, thing=thing)
         approach = phases(path.points, world.model.grips, "draw")[0][1]
         path = path.until(approach)
         yield from self.follow(path, on, self.keeps(thing))
@@ -373,7 +373,7 @@ class Tasks(Mover):
             spot = self.beliefs.entities[one].get("pose", {}).get("xyz") if place is None else place
             if spot is None or not self.may_show(one, spot):
                 raise
-            if not (yield from self.around(query, one, place, spot, motion)):
+            if not (yield from self.around(query, one, place, spot, motion, motion.until - SPARE)):
                 raise
             path = self.motion(Motion(None), query, "not_found", self.supposing(one, place))
         yield from self.follow(path)
@@ -382,9 +382,11 @@ class Tasks(Mover):
 
     def uncover(self, one, place):
         """Turns a camera on the hand so that the hand does not hide where an entity should be."""
+        if one not in self.beliefs.things():
+            return
         known = self.beliefs.entities[one]
         middle = known.get("pose", {}).get("xyz") if place is None else place
-        if middle is None or one not in self.beliefs.things():
+        if middle is None:
             return
         signs = np.array(list(itertools.product((-1.0, 1.0), repeat=3)))
         corners = np.array(middle) + signs * extent(known) / 2.0
@@ -402,7 +404,11 @@ class Tasks(Mover):
                 target[grip] = self.goal[grip]
             if not self.is_way(self.goal, target):
                 return
-            yield from self.follow(self.path([self.goal.copy(), target]))
+            try:
+                yield from self.follow(self.path([self.goal.copy(), target]))
+            except Failed:
+                # What shows from here is looked at.
+                return
             yield from self.pause(0.1)
 
     def may_show(self, one, spot):
@@ -437,6 +443,19 @@ class Tasks(Mover):
                 found |= self.eyes.known(wanted)
         return [one for one in wanted if one in found]
 
+    def seen_at(self, place, wanted):
+        """Ids of the entities, of some, that the camera sees when it looks at a place as a whole."""
+        kind = self.beliefs.entities.get(place, {}).get("kind")
+        if not wanted or kind not in ("Surface", "Container") or place not in self.world.model.body_of:
+            return []
+        for spot in self.beliefs.places(place, kind == "Container", 0.05)[:1]:
+            try:
+                yield from self.look(INSIDE, Motion(None), spot)
+            except Failed:
+                return []
+        seen = self.eyes.known(wanted)
+        return [one for one in wanted if one in seen]
+
     def objects(self, what):
         """Objects that a description fits."""
         known = self.beliefs.entities
@@ -470,7 +489,9 @@ class Tasks(Mover):
                     if place is args["around"]["list"][-1]:
                         raise failure
                     continue
-            found = yield from self.seen(self.objects(what), Motion(None))
+            wanted = self.objects(what)
+            found = yield from self.seen(wanted, Motion(None))
+            found += yield from self.seen_at(to, [one for one in wanted if one not in found])
             found = [one for one in found if to in self.room.supports(one) or self.observer.serves(one)]
             if len(found) > 1:
                 raise Failed("ambiguous", "%d things here are called %s" % (len(found), what))

@@ -22,6 +22,10 @@ SINKS = 0.02
 ABOUT = 0.15
 # Share of its travel from its end to which a finger that is told to close has closed on nothing.
 CLOSED = 0.02
+# Distances in m from the tip along the fingers at which the gap between them is measured, and the widest gap.
+FINGERS, WIDEST = np.arange(-0.06, 0.1201, 0.005), 0.2
+# Groups of geoms that a ray meets: the robot alone.
+ROBOT = np.array([0, 0, 1, 0, 0, 0], dtype=np.uint8)
 
 
 class World:
@@ -118,6 +122,25 @@ class World:
         """Position and rotation of the link of the tip, in which grips are given."""
         at = self.model.mj.site_bodyid[self.model.tip]
         return self.data.xpos[at].copy(), self.data.xmat[at].reshape(3, 3).copy()
+
+    def between(self, place, half=np.inf):
+        """How far the middle between the closed fingers is from a place within them, in m along their closing. What is
+        there reaches from the place by `half` along the fingers. 0 where they are not on both its sides."""
+        tip, rotation = self.tip()
+        _, across, depth = rotation.T @ (place - tip)
+        found, geom = [], np.zeros(1, dtype=np.int32)
+        for along in FINGERS[np.abs(FINGERS - depth) <= half]:
+            eye = tip + rotation @ np.array([0.0, across, along])
+            gaps = []
+            for way in (rotation[:, 1], -rotation[:, 1]):
+                args = (self.model.mj, self.data, eye, np.ascontiguousarray(way), ROBOT, 1, -1, geom)
+                try:
+                    gaps.append(mujoco.mj_ray(*args))
+                except TypeError:
+                    gaps.append(mujoco.mj_ray(*args, None))
+            if 0.0 <= min(gaps) and sum(gaps) <= WIDEST:
+                found.append((sum(gaps), (gaps[0] - gaps[1]) / 2.0))
+        return min(found)[1] if found else 0.0
 
     def pose(self, entity):
         """Position and rotation (w, x, y, z) of an entity; None without a body."""

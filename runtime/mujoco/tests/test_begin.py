@@ -3,7 +3,7 @@
 import json
 
 import numpy as np
-from motet_mujoco.begin import whole
+from motet_mujoco.begin import begun, model_of, told_apart, whole
 from motet_mujoco.model import load
 from motet_mujoco.world import World
 
@@ -23,8 +23,9 @@ def hidden(motet, tmp_path, container, **state):
 
 
 def test_a_thing_without_a_place_is_somewhere_in_its_container(motet, tmp_path):
-    told, real = hidden(motet, tmp_path, "cupboard_1")
-    assert "coke" not in told.free and "pose" not in told.entities["coke"], "the robot knows no more"
+    model, real = hidden(motet, tmp_path, "cupboard_1")
+    _, told = told_apart(model, None, motet)
+    assert "pose" not in next(one for one in told["entities"] if one["id"] == "coke"), "the robot knows no more"
     world = World(real)
     world.wait(1.0)
     assert world.is_in("coke", "cupboard_1")
@@ -35,6 +36,21 @@ def test_a_thing_in_an_open_drawer_is_in_the_drawer(motet, tmp_path):
     world = World(real)
     world.wait(1.0)
     assert world.is_in("coke", "drawer_1"), world.pose("coke")
+
+
+def test_a_drawer_that_is_open_at_the_start_has_taken_its_things_along(motet, tmp_path):
+    _, real = hidden(motet, tmp_path, "drawer_1")
+    scene = begun(real.scene, [("open", ["drawer_1"], True)], None)
+    world = World(model_of(real.source, scene, motet))
+    world.wait(1.0)
+    assert world.is_in("coke", "drawer_1"), world.pose("coke")
+
+
+def test_a_robot_that_is_told_what_a_thing_is_in_does_not_know_where(motet, tmp_path):
+    model, _ = hidden(motet, tmp_path, "cupboard_1")
+    scene = begun(model.scene, [("in", ["coke", "drawer_1"], True)], None, is_told=True)
+    coke = next(one for one in scene["entities"] if one["id"] == "coke")
+    assert coke["in"] == "drawer_1" and "pose" not in coke
 
 
 def test_a_scene_that_says_all_is_as_it_is(motet):

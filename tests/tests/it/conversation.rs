@@ -513,6 +513,27 @@ fn conversation_looks_where_it_does_not_know() {
 }
 
 #[test]
+fn conversation_says_of_a_search_that_ended_early_nothing_that_it_did_not_see() {
+    let mut setting = setting("hsr");
+    let coke = setting.scene.entities.get_mut("coke").unwrap();
+    (coke.on, coke.pose) = (None, None);
+    for (said, outcome, answer) in [
+        ("bring me the apple instead", Outcome::Done, None),
+        ("stop", Outcome::GivenUp, None),
+        ("the coke is on the shelf", Outcome::Done, Some("The coke can is on the wall shelf.")),
+    ] {
+        let mut world = setting.scene.clone();
+        world.entities.shift_remove("coke");
+        let options = SimOptions { world: Some(world), ..SimOptions::default() };
+        let mut sim = Sim::new(&setting.robot, &setting.scene, options);
+        let mut talk = Conversation::new(&setting);
+        let (ended, _, lines) = carried_out(&mut talk, &mut sim, "where is the coke?", &[(10.0, said)]);
+        assert_eq!(ended, outcome, "{said}: {:?}", lines.answers);
+        assert_eq!(lines.answers.iter().flatten().next().map(String::as_str), answer, "{said}");
+    }
+}
+
+#[test]
 fn conversation_begins_in_the_state_that_it_was_told() {
     let setting = setting("hsr");
     let fact = |fluent: &str, args: &[Value]| Query::Fact {

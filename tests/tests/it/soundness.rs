@@ -157,6 +157,24 @@ fn soundness_what_a_monitor_watches_the_world_may_change() {
     // A monitor also fires when its condition has been unknown for long.
     let reacting = "monitor when f(a) then resume at most 1 { use(a) } during { pass() }";
     assert_eq!(watched("", reacting), [Verdict::Deferred]);
+    // Two conditions may begin to hold at once: the first one fires, whatever the other would rule out.
+    let resumes = "when g(a) then resume at most 1 { avoid(a) }";
+    let fails = "when f(a) then fail \"no\"";
+    for policy in [
+        format!("monitor {{ {resumes} {fails} }} during {{ pass() }}"),
+        format!("undo(a) monitor {{ {resumes} {fails} }} during {{ pass() }}"),
+        format!("monitor {{ {resumes} }} during {{ monitor {{ {fails} }} during {{ pass() }} }}"),
+    ] {
+        let policy = format!("initially not f(a)\npolicy p {{ {policy} }}");
+        assert_eq!(verdicts("avoid", &policy), [Verdict::Deferred], "{policy}");
+    }
+    let first =
+        format!("initially not f(a)\npolicy p {{ monitor {{ {fails} {resumes} }} during {{ pass() }} }}");
+    assert_eq!(verdicts("avoid", &first), [Verdict::Proven]);
+    let goal = "policy p achieves f(a) { monitor { when g(a) then done when f(a) then fail \"no\" } \
+                during { cannot \"no\" } }";
+    let found = session_codes(None, &format!("{DOMAIN}\n{goal}"));
+    assert!(!found.contains(&"M0503"), "{found:?}");
 }
 
 #[test]

@@ -51,8 +51,8 @@ pub(crate) fn plain_form(
     Some((edited, reader.readings.into_iter().map(Reading::note).collect()))
 }
 
-/// The most edits of a document: a step in another shape takes up to five.
-const MAX_EDITS: usize = 5 * MAX_STEPS;
+/// The most edits of a document: a step in another shape takes up to five, and its terms take more.
+const MAX_EDITS: usize = 500_000;
 
 /// All places of a document that are read in one way.
 struct Reading {

@@ -15,7 +15,7 @@ use smol_str::SmolStr;
 
 use self::element::{DEEPEST, XmlText, name, number, numbers};
 use self::robot::RobotLayout;
-use crate::planning::{PlanningScene, RobotModel, SceneState};
+use crate::planning::{RobotModel, SceneState};
 
 /// Reason for which there is no model.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -110,8 +110,7 @@ pub fn write(model: &RobotModel, urdf: &Urdf, scene: &Scene) -> Result<String, M
     if let Some(entity) = scene.entities.values().find(|entity| is_mesh(&entity.shape)) {
         return Err(MjcfError::EntityMesh(entity.id.clone()));
     }
-    let mut state = SceneState::new(model, scene);
-    grip(model, scene, &mut state);
+    let state = SceneState::new(model, scene);
     let card = model.card();
     let mut xml = XmlText::default();
     xml.open("mujoco", &[("model", card.name.to_string())]);
@@ -146,14 +145,6 @@ pub fn write(model: &RobotModel, urdf: &Urdf, scene: &Scene) -> Result<String, M
     xml.close();
     keys(&mut xml, model, &layout, &room.positions, &state);
     Ok(xml.finish())
-}
-
-/// Closes the fingers around what the hand holds.
-fn grip(model: &RobotModel, scene: &Scene, state: &mut SceneState) {
-    let planning = PlanningScene::new(model, scene, state);
-    let held = state.held.as_ref().and_then(|(id, _)| planning.held_object(id));
-    let Some((hand, width)) = held.map(|held| (held.hand, held.width)) else { return };
-    state.robot.joints = hand.around(&state.robot.joints, model.rest(), width);
 }
 
 /// Options, defaults and what the model says in words and numbers.

@@ -114,6 +114,15 @@ enum RoundResult {
     Problem(Problem, Retry),
 }
 
+/// End of a search for an object.
+pub(super) enum SearchEnd {
+    Found,
+    /// It was not seen, or a person said meanwhile where it is.
+    Missed,
+    /// Something else was asked for, or the robot was stopped.
+    Replaced(Outcome),
+}
+
 /// Chance of another try before somebody is asked.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Retry {
@@ -197,18 +206,25 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
 
     /// Looks for an object from where the robot is, and then at one surface after the other. Nobody is asked:
     /// who wants to know where it is cannot tell. What is asked for meanwhile is pursued.
-    pub(super) fn search(&mut self, thing: &SmolStr, driver: &mut dyn Driver) -> Outcome {
-        let scene = self.talk.known.scene(&self.talk.setting.scene);
-        let searches = [self.looking(None, thing, &scene), self.seeking(&scene.called(thing), &scene)];
-        let mut outcome = Outcome::Failed(Problem::nothing("I have no way to look for it."));
-        for planned in searches.into_iter().flatten() {
-            match self.run(planned, driver, &scene) {
-                RoundResult::Round => return self.pursue(driver),
-                RoundResult::Over(outcome) => return outcome,
-                RoundResult::Problem(problem, _) => outcome = Outcome::Failed(problem),
+    pub(super) fn search(&mut self, thing: &SmolStr, driver: &mut dyn Driver) -> SearchEnd {
+        let asked = self.task.request.clone();
+        for is_near in [true, false] {
+            let scene = self.talk.known.scene(&self.talk.setting.scene);
+            let planned = match is_near {
+                true => self.looking(None, thing, &scene),
+                false => self.seeking(&scene.called(thing), &scene),
+            };
+            let Some(planned) = planned else { continue };
+            let end = self.run(planned, driver, &scene);
+            match (end, self.task.request == asked) {
+                (RoundResult::Over(Outcome::Done), true) => return SearchEnd::Found,
+                (RoundResult::Over(outcome), _) => return SearchEnd::Replaced(outcome),
+                (RoundResult::Round, true) => return SearchEnd::Missed,
+                (RoundResult::Problem(..), true) => {}
+                (_, false) => return SearchEnd::Replaced(self.pursue(driver)),
             }
         }
-        outcome
+        SearchEnd::Missed
     }
 
     /// Takes in what is in view before a plan.

@@ -12,7 +12,7 @@ use smol_str::SmolStr;
 
 use super::conversation::{Conversation, DialogueObserver, Outcome, Person};
 use super::knowledge::Knowledge;
-use super::manager::DialogueManager;
+use super::manager::{DialogueManager, SearchEnd};
 use super::problem::{Kind, Problem, join, unknown};
 use super::senses::{ask, sense};
 use crate::Planner;
@@ -37,19 +37,22 @@ impl Conversation<'_> {
         let mut answer = self.answer_here(question, driver, now);
         if let (None, Some(request)) = (&answer, self.look_request(question)) {
             let mut manager = DialogueManager::new(self, (planner, person, &mut *watcher), &request, now);
-            let outcome = match (question.topic, question.things.first()) {
+            let end = match (question.topic, question.things.first()) {
                 (Topic::Location | Topic::Placed, Some(thing)) => manager.search(thing, driver),
-                _ => manager.pursue(driver),
+                _ => match manager.pursue(driver) {
+                    Outcome::Stopped => SearchEnd::Replaced(Outcome::Stopped),
+                    _ => SearchEnd::Missed,
+                },
             };
             now = manager.now;
-            if outcome == Outcome::Stopped {
+            if let SearchEnd::Replaced(outcome) = end {
                 return (outcome, now);
             }
             let run = self.next_run();
             now = driver.begin_run(now, &run, None);
             now = self.find_out(question, driver, now);
             let known = self.answer_here(question, driver, now);
-            answer = known.or_else(|| self.found_here(question).filter(|_| outcome == Outcome::Done));
+            answer = known.or_else(|| self.found_here(question).filter(|_| matches!(end, SearchEnd::Found)));
         }
         self.known.spoken_of.extend(question.things.iter().cloned());
         self.memory.asked(now, said, answer.as_deref());

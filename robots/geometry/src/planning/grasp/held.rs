@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 
 use motet_robots::scene::{Grip, Scene};
 use nalgebra::{Isometry3, Translation3, Vector3};
+use smol_str::SmolStr;
 
 use super::candidates::{GraspCandidate, grasp_candidates, in_order, rank};
 use crate::collision::Solid;
@@ -44,16 +45,28 @@ impl SceneState {
             let given = scene.robot.grip.as_ref().filter(|grip| grip.of == *id);
             let given = given.map(|grip| isometry(&grip.tip_from_object));
             let grip = given.or_else(|| grip(model, scene, &state, id));
-            state.held = grip.map(|grip| (id.clone(), grip));
+            if let Some(grip) = grip {
+                state = state.holding(model, scene, id, grip);
+            }
         }
         state
     }
 
     /// The same with this grip of what the hand holds; `None` if it holds something else.
     #[must_use]
-    pub fn gripping(&self, grip: &Grip) -> Option<Self> {
-        let held = Some((grip.of.clone(), isometry(&grip.tip_from_object)));
-        self.holds(&grip.of).then(|| Self { held, ..self.clone() })
+    pub fn gripping(&self, model: &RobotModel, scene: &Scene, grip: &Grip) -> Option<Self> {
+        self.holds(&grip.of).then(|| self.holding(model, scene, &grip.of, isometry(&grip.tip_from_object)))
+    }
+
+    /// The same with an object in the hand, and the fingers around it, whatever the scene says of them.
+    fn holding(&self, model: &RobotModel, scene: &Scene, id: &SmolStr, grip: Isometry3<f64>) -> Self {
+        let mut state = Self { held: Some((id.clone(), grip)), ..self.clone() };
+        let planning = PlanningScene::new(model, scene, &state);
+        let held = planning.held_object(id).map(|held| (held.hand, held.width));
+        if let Some((hand, width)) = held {
+            state.robot.joints = hand.around(&state.robot.joints, model.rest(), width);
+        }
+        state
     }
 }
 
@@ -80,7 +93,7 @@ impl PlanningScene<'_> {
 }
 
 /// Pose in the tip's frame of an object that the hand holds; `None` for a shape that no hand holds.
-fn grip(model: &RobotModel, scene: &Scene, state: &SceneState, id: &str) -> Option<Isometry3<f64>> {
+fn grip(model: &RobotModel, scene: &Scene, state: &SceneState, id: &SmolStr) -> Option<Isometry3<f64>> {
     let (hand, shape) = model.hand().zip(scene.entities.get(id).and_then(solid_shape))?;
     let [x, y, yaw] = state.robot.base;
     let pose = planar(x, y, yaw) * Translation3::from(Vector3::from(AHEAD));
@@ -103,7 +116,7 @@ fn grip(model: &RobotModel, scene: &Scene, state: &SceneState, id: &str) -> Opti
     let grips = all.iter().take(TRIED).map(|hold| (rank(hold, &ahead), hold.map_from_tip.inverse() * pose));
     let grips: Vec<(usize, Isometry3<f64>)> = grips.collect();
     let is_free = |grip: &Isometry3<f64>| {
-        let held = SceneState { held: Some((id.into(), *grip)), ..state.clone() };
+        let held = state.holding(model, scene, id, *grip);
         QueryContext::new(model, scene, &held).start_contact().is_none()
     };
     let Some((best, first)) = grips.iter().find(|(_, grip)| is_free(grip)).or(grips.first()) else {

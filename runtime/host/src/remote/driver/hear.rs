@@ -99,8 +99,11 @@ impl RemoteDriver {
                     self.report(DriverEvent::Lost { goal });
                 }
             }
-            DriverReport::Observed(_) if self.facts.exceeds(MAX_FACTS_A_SECOND, self.heard_at) => {
-                self.broke(&LinkError::Hasty(MAX_FACTS_A_SECOND, "`observed`"));
+            DriverReport::Observed(observed)
+                if !self.watches.contains(&observed.query)
+                    && self.facts.exceeds(MAX_FACTS_A_SECOND, self.heard_at) =>
+            {
+                self.broke(&LinkError::Hasty(MAX_FACTS_A_SECOND, "`observed` that are not watched"));
             }
             DriverReport::Observed(observed) => {
                 let (query, answer) = (observed.query, observed.answer);
