@@ -12,7 +12,7 @@ use super::evaluation::CallFrame;
 use super::{Mode, Prover, Volatile, Watched};
 use crate::analysis::{Domain, Enclosing};
 use crate::declare::EffectDef;
-use crate::facts::{Cause, Delta, FactKey, TruthSet};
+use crate::facts::{Cause, Delta, FactKey, TruthSet, effort};
 use crate::ir::{BlockSlot, Call, Condition, Entity, Fact, Reaction, Step, StepId, StepKind, Term, When};
 
 impl<'a> Prover<'a> {
@@ -500,10 +500,12 @@ impl<'a> Prover<'a> {
         let inside = (id.0 + 1..).map(StepId).map_while(|step| Some((step, program.step(step)?)));
         for (_, step) in inside.take_while(|(step, _)| program.around(*step).any(|(around, _)| around == id))
         {
+            effort::spend(1);
             if let StepKind::Monitor { whens, .. } = &step.kind {
                 whens.iter().for_each(|when| free_facts(&when.condition, (false, false), &mut free));
             }
         }
+        effort::spend(effort::VISIT * free.len());
         for (fluent, key) in self.atoms_of(free) {
             self.state.facts.set(fluent, key, TruthSet::open(Cause::step(id)));
         }
