@@ -42,7 +42,7 @@ class Beliefs:
         self.grip = None
         # Things by the people who took them; things that were seen or felt where they are; and where lost things are not.
         self.given, self.seen, self.gone = {}, set(), {}
-        # Things in drawers of which nobody knows how far they are open: (drawer, place when it is closed, pose).
+        # Things in drawers that nobody knows to be open or closed: (drawer, place when it is closed, pose).
         self.drawn = {}
         # How far drawers and doors were seen to be open, as shares of their travel.
         self.openings = {}
@@ -60,8 +60,10 @@ class Beliefs:
             position, quaternion = self.world.pose(thing)
         else:
             position, quaternion = np.array(known["xyz"], dtype=float), turned(known)
-            half = sight.halves(self.entities[thing].get("shape", {}))[1]
-            position += self.world.tip()[1][:, 1] * self.world.between(position, half)
+            axis, rotation = self.world.tip()[1][:, 1], np.zeros(9)
+            mujoco.mju_quat2Mat(rotation, quaternion)
+            width = sight.width(self.entities[thing].get("shape", {}), rotation.reshape(3, 3).T @ axis)
+            position += axis * self.world.between(position, width)
         self.grip = relative(self.world.tip_frame(), position, quaternion)
         self.gone.pop(thing, None)
         self.given.pop(thing, None)
@@ -292,8 +294,8 @@ class Beliefs:
             self.carried(container, before, known.get("open"))
 
     def carried(self, drawer, before, is_open):
-        """Moves what lies in a drawer along with it. After a motion that failed, it is somewhere in there until the
-        drawer is seen."""
+        """Moves what lies in a drawer along with it. After a motion that failed, it is somewhere in there
+        until the drawer is seen."""
         way = self.world.model.drawn(drawer)
         if way is None or before is is_open:
             return
@@ -302,7 +304,8 @@ class Beliefs:
                 continue
             if before is not None and "pose" in known:
                 # Where it is while the drawer is closed.
-                self.drawn[thing] = drawer, np.array(known["pose"]["xyz"]) - (way if before else 0.0), known.pop("pose")
+                pose = known.pop("pose")
+                self.drawn[thing] = drawer, np.array(pose["xyz"]) - (way if before else 0.0), pose
             where, closed, pose = self.drawn.get(thing, (None, None, None))
             if is_open is not None and where == drawer and "pose" not in known:
                 place = closed + (way if is_open else 0.0)

@@ -22,8 +22,8 @@ from .world import OPENED
 
 # Distance in m within which a detection may be a known thing, and the part of its size by which it may differ.
 ABOUT, UNLIKE = 0.3, 0.75
-# The same part for a thing that may be anywhere.
-UNLIKE_ANYWHERE = 0.3
+# The same part for a thing that may be anywhere, and the part of its width below which what is seen is none.
+UNLIKE_ANYWHERE, SLIVER = 0.3, 0.4
 # Every which row and column of a depth picture is looked at, for what is known; the distance in m up to which a point
 # is on it, and the number of points that show it.
 GRID, ON, ENOUGH = 6, 0.02, 8
@@ -121,6 +121,9 @@ class Eyes:
             if self.chance.comes(min(missed * small, 1.0), "miss", of):
                 continue
             off = self.chance.error(rates["error_per_m"] * far, "place", of)
+            if one.pop("is_kept", False):
+                # The place is the believed one: it was not measured, and its error does not grow.
+                off = np.zeros(2)
             one["pose"]["xyz"] = [round(float(part), 4) for part in np.array(one["pose"]["xyz"]) + [*off, 0.0]]
             kept.append(one)
         entities = self.beliefs.entities
@@ -274,16 +277,30 @@ class Eyes:
         for thing in held:
             # Where the hand holds it, the robot knows it.
             self.beliefs.saw(thing, *self.beliefs.held_pose(thing))
-        taken = set()
+        self.assign(found)
+        parts = {one["id"] for one in found}.union(held)
+        return [one for one in found if one["id"] is not None
+                or not self.is_part(one, parts | self.larger(one))]
+
+    def assign(self, found):
+        """Gives detections the ids of known things, the best fit first. A piece of a thing that is where it
+        should be, in its colour, is no other thing that moved there."""
+        fits = sorted((worth, at, thing) for at, one in enumerate(found) for worth, thing in self.fits(one))
+        colours, entities = {}, self.beliefs.entities
+        for _, at, thing in fits:
+            one = found[at]
+            if one["id"] is not None or thing in colours:
+                continue
+            place, colour = one["pose"]["xyz"], one["label"].split()[0]
+            alike = [other for other, painted_as in colours.items() if painted_as == colour]
+            if self.beliefs.gap(thing, place) not in (None, 0.0) and self.is_part(one, alike):
+                continue
+            one["id"], colours[thing] = thing, colour
         for one in found:
-            one["id"] = self.match(one, taken)
             if one["id"] is not None:
-                taken.add(one["id"])
-                entity = self.beliefs.entities[one["id"]]
+                entity = entities[one["id"]]
                 one["label"] = (entity.get("names") or [entity.get("class") or one["id"]])[0]
                 one["pose"]["xyz"] = self.middle(one)
-        parts = taken.union(held)
-        return [one for one in found if one["id"] is not None or not self.is_part(one, parts)]
 
     def parts(self, one):
         """A detection, or both things where it is as high as two known ones of its colour, one on the other, about
@@ -315,8 +332,16 @@ class Eyes:
             if "cylinder" in believed.get("shape", {}) and np.abs(seen - whole)[:2].max() < 0.1 * whole[0]:
                 # The curve of any part of its side says where its axis is.
                 place[:2] = one["pose"]["xyz"][:2]
+            else:
+                one["is_kept"] = True
             return [round(float(part), 4) for part in place]
         return centred(one, believed, self.eye())
+
+    def larger(self, one):
+        """Believed things of which a detection may be a part by its size and its colour."""
+        things = {thing: self.beliefs.entities[thing] for thing in self.beliefs.things()}
+        return {thing for thing, entity in things.items() if painted(entity, one["label"])
+                and np.max(one["extent"]) < PARTLY * np.max(extent(entity))}
 
     def is_part(self, one, taken):
         """True for a detection that is a part of a thing of which another part was recognised, as where something
@@ -324,21 +349,19 @@ class Eyes:
         gaps = [self.beliefs.gap(thing, one["pose"]["xyz"]) for thing in taken]
         return any(gap is not None and gap <= PART for gap in gaps)
 
-    def match(self, one, taken):
-        """Id of the believed thing that a detection fits best; None for something new."""
+    def fits(self, one):
+        """Believed things that a detection may be, each with how badly it fits."""
         position, size = np.array(one["pose"]["xyz"]), np.array(one["extent"])
-        best = None
         for thing in self.beliefs.things():
             entity = self.beliefs.entities[thing]
-            if thing in taken or not painted(entity, one["label"]):
+            if not painted(entity, one["label"]):
                 continue
             off, like = self.off(entity, position), unlike(size, extent(entity))
+            if off is None and np.sort(size)[1] < SLIVER * np.sort(extent(entity))[1]:
+                continue
             if off is not None and off <= ABOUT and like <= UNLIKE or off is None and like <= UNLIKE_ANYWHERE:
                 # What is known to be about there comes before what may be anywhere.
-                worth = (2.0 if off is None else off / ABOUT) + like
-                if best is None or worth < best[0]:
-                    best = (worth, thing)
-        return best[1] if best else None
+                yield (2.0 if off is None else off / ABOUT) + like, thing
 
     def off(self, entity, position):
         """Distance in m from where a thing is believed to be, or from what it is on or in; None if it may be
@@ -473,5 +496,9 @@ def centred(one, entity, eye):
         hidden = (np.abs(rotation.reshape(3, 3)) @ extent(entity) - size)[:2]
         # A side that is longer than it should be is one of a thing that is turned.
         if hidden.min() > -TURNED:
-            position[:2] += np.sign(position - eye)[:2] * np.maximum(hidden, 0.0) / 2.0
+            most, ahead = np.maximum(hidden, 0.0) / 2.0, int(np.argmax(np.abs(position - eye)[:2]))
+            # Across the view it may be hidden on either side: it is where it is believed to be.
+            shift = np.clip(np.array(entity["pose"]["xyz"])[:2] - position[:2], -most, most)
+            shift[ahead] = np.sign(position - eye)[ahead] * most[ahead]
+            position[:2] += shift
     return [round(float(part), 4) for part in position]

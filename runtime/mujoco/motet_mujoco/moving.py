@@ -105,7 +105,12 @@ class Mover:
     def smooth(self, path, keeps=None):
         """A path as it is followed from here: gently with a thing in the hand, and without stops that it does
         not need."""
-        path = path.to([self.goal.copy(), *path.points[1:]])
+        points = [self.goal.copy(), *(point.copy() for point in path.points[1:])]
+        if self.room.held():
+            for point in points:
+                # A witness has the fingers as far apart as the thing is wide: so they would not press it.
+                point[list(self.world.model.grips)] = self.goal[list(self.world.model.grips)]
+        path = path.to(points)
         if self.room.held():
             path = Path([gentle(self.world, stroke) for stroke in path.strokes])
         if len(path.strokes) > 1:
@@ -326,8 +331,8 @@ class Mover:
         return scene
 
     def face(self, container, motion):
-        """Drives to where the inside of an open container shows and is within reach, if it is not so here: with a
-        thing in the hand, to where the hand can put it in. True if the robot stands there then."""
+        """Drives to where the inside of an open container shows and is within reach, if it is not so here:
+        with a thing in the hand, to where the hand can put it in. True if the robot stands there then."""
         place, query = self.beliefs.places(container, True, 0.05)[0], "look(%s)" % INSIDE
         held = self.room.held()
 
@@ -341,18 +346,19 @@ class Mover:
         return came and self.observer.serves(container)
 
     def way_to_put(self, thing, on, stand):
-        """Way in m of the base from a place to where the hand puts a thing down; infinite if there is none."""
+        """Way in m of the base from a place to where the hand puts a thing down; infinite without one."""
         scene = self.beliefs.now()
         scene["robot"]["base"] = [float(part) for part in stand]
-        witness, _ = self.put_witness(scene, "put(%s, %s)" % (quoted(thing), quoted(on)), thing, self.planner.ask)
+        query = "put(%s, %s)" % (quoted(thing), quoted(on))
+        witness, _ = self.put_witness(scene, query, thing, self.planner.ask)
         if witness is None:
             return np.inf
         bases = np.array([point["base"][:2] for point in witness["path"]])
         return float(np.linalg.norm(np.diff(bases, axis=0), axis=1).sum())
 
     def put_witness(self, scene, query, thing, ask):
-        """(witness, None), or (None, why), of a motion that puts a thing down in a room. Where the fingers would meet
-        what is below it, the hand lets go from a little above."""
+        """(witness, None), or (None, why), of a motion that puts a thing down in a room. Where the fingers
+        would meet what is below it, the hand lets go from a little above."""
         witness, why = ask(scene, query)
         for height in LETS_GO:
             if witness is None and scene["robot"].get("grip"):
@@ -367,14 +373,15 @@ class Mover:
         return witness, None if witness is not None else why
 
     def around(self, query, one, place, spot, motion, until=np.inf, way=None):
-        """Moves the base to where a motion is feasible, at a place near a spot, the nearest directions first: one from
-        which what comes next has a short way, as `way` says, else the one with the shortest. `place` is where an
-        entity is supposed to be. True if there is such a place to which it comes by a time."""
+        """Moves the base to where a motion is feasible, at a place near a spot, the nearest directions first:
+        one from which what comes next has a short way, as `way` says, else the one with the shortest. `place`
+        is where an entity is supposed to be. True if there is such a place to which it comes by a time."""
         model, (x, y, yaw) = self.world.model, self.world.base()
         towards, best, least = float(np.arctan2(y - spot[1], x - spot[0])), None, np.inf
         for off, turn in itertools.product(AROUND if model.drives else (), TURNS):
             far, angle, scene = model.card[1] + off, towards + turn, self.supposing(one, place)
-            stand = (spot[0] + far * np.cos(angle), spot[1] + far * np.sin(angle), near_turn(angle + np.pi, yaw))
+            stand = spot[0] + far * np.cos(angle), spot[1] + far * np.sin(angle)
+            stand = (*stand, near_turn(angle + np.pi, yaw))
             scene["robot"]["base"] = [float(part) for part in stand]
             if least <= ASIDE or self.world.now + THINKS > until:
                 break

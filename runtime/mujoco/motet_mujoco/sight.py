@@ -76,3 +76,13 @@ def halves(shape):
     radius = round_["radius"]
     half = half_height(shape) or radius
     return min(radius, half), max(radius, half)
+
+
+def width(shape, axis):
+    """Extent in m of a shape along a unit vector in its frame."""
+    if "box" in shape:
+        return float(np.abs(axis) @ np.array(shape["box"]))
+    rounds = (part for part in shape.values() if isinstance(part, dict) and "radius" in part)
+    round_ = next(rounds, {"radius": 0.03})
+    across = 1.0 if "height" not in round_ or "capsule" in shape else float(np.hypot(*axis[:2]))
+    return 2.0 * round_["radius"] * across + round_.get("height", 0.0) * abs(float(axis[2]))

@@ -10,7 +10,7 @@ import numpy as np
 from .camera import NoGraphics
 from .eyes import extent
 from .motion import near_turn, phases
-from .moving import INSIDE, SPARE, THINKS, Failed, Motion, Mover
+from .moving import INSIDE, THINKS, Failed, Motion, Mover
 from .observation import AT_PLACE
 from .planner import quoted, stand_at
 from .world import OPENED
@@ -23,6 +23,8 @@ GIVES = 0.04
 ABOUT_HERE = 2.0
 # How often a camera on the hand is turned at most so that the hand does not hide a thing.
 AIMS = 2
+# Seconds that a look takes once the camera stands still.
+LOOKS = 0.5
 # Distances in m, beyond that of a drive to a person, from which the hand may hold something out.
 OFFERS = (0.0, -0.1, 0.15)
 
@@ -279,7 +281,17 @@ class Tasks(Mover):
         begun = self.goal.copy()
         if not self.room.holds(thing):
             raise Failed("slipped", "the hand does not hold %s" % thing)
-        path = self.motion(motion, "offer(%s, %s)" % (quoted(thing), quoted(person)))
+        query = "offer(%s, %s)" % (quoted(thing), quoted(person))
+        try:
+            path = self.motion(motion, query)
+        except Failed:
+            # The base came to stand a little beside where the hand could do it.
+            here = self.path([self.goal.copy(), self.goal.copy()])
+            path = yield from self.offering(here, thing, person, Motion(None))
+            if not self.world.model.drives or path is here:
+                raise
+            yield from self.drive(path, person)
+            path = self.motion(Motion(None), query)
         yield from self.follow(path, person, self.keeps(thing))
         yield from self.pause(self.options.reaction())
         if self.options.refuses(person):
@@ -373,15 +385,16 @@ class Tasks(Mover):
             spot = self.beliefs.entities[one].get("pose", {}).get("xyz") if place is None else place
             if spot is None or not self.may_show(one, spot):
                 raise
-            if not (yield from self.around(query, one, place, spot, motion, motion.until - SPARE)):
+            if not (yield from self.around(query, one, place, spot, motion)):
                 raise
             path = self.motion(Motion(None), query, "not_found", self.supposing(one, place))
         yield from self.follow(path)
-        yield from self.uncover(one, place)
+        yield from self.uncover(one, place, motion.until - LOOKS)
         yield from self.pause(0.1)
 
-    def uncover(self, one, place):
-        """Turns a camera on the hand so that the hand does not hide where an entity should be."""
+    def uncover(self, one, place, until):
+        """Turns a camera on the hand so that the hand does not hide where an entity should be, if that is
+        done by a time."""
         if one not in self.beliefs.things():
             return
         known = self.beliefs.entities[one]
@@ -402,10 +415,11 @@ class Tasks(Mover):
                 return
             for grip in self.world.model.grips:
                 target[grip] = self.goal[grip]
-            if not self.is_way(self.goal, target):
+            path = self.path([self.goal.copy(), target])
+            if self.world.now + path.end > until or not self.is_way(self.goal, target):
                 return
             try:
-                yield from self.follow(self.path([self.goal.copy(), target]))
+                yield from self.follow(path)
             except Failed:
                 # What shows from here is looked at.
                 return

@@ -22,8 +22,9 @@ SINKS = 0.02
 ABOUT = 0.15
 # Share of its travel from its end to which a finger that is told to close has closed on nothing.
 CLOSED = 0.02
-# Distances in m from the tip along the fingers at which the gap between them is measured, and the widest gap.
-FINGERS, WIDEST = np.arange(-0.06, 0.1201, 0.005), 0.2
+# Distances in m from the tip along the fingers at which the gap between them is measured, and its greatest
+# difference from the width of what they hold.
+FINGERS, WIDER = np.arange(-0.06, 0.1201, 0.005), 0.015
 # Groups of geoms that a ray meets: the robot alone.
 ROBOT = np.array([0, 0, 1, 0, 0, 0], dtype=np.uint8)
 
@@ -123,13 +124,13 @@ class World:
         at = self.model.mj.site_bodyid[self.model.tip]
         return self.data.xpos[at].copy(), self.data.xmat[at].reshape(3, 3).copy()
 
-    def between(self, place, half=np.inf):
-        """How far the middle between the closed fingers is from a place within them, in m along their closing. What is
-        there reaches from the place by `half` along the fingers. 0 where they are not on both its sides."""
+    def between(self, place, width):
+        """How far the middle between the closed fingers is from a place within them, in m along their
+        closing, where they are as far apart as the thing there is wide. 0 if they are so nowhere."""
         tip, rotation = self.tip()
-        _, across, depth = rotation.T @ (place - tip)
+        across = float(rotation[:, 1] @ (place - tip))
         found, geom = [], np.zeros(1, dtype=np.int32)
-        for along in FINGERS[np.abs(FINGERS - depth) <= half]:
+        for along in FINGERS:
             eye = tip + rotation @ np.array([0.0, across, along])
             gaps = []
             for way in (rotation[:, 1], -rotation[:, 1]):
@@ -138,8 +139,8 @@ class World:
                     gaps.append(mujoco.mj_ray(*args))
                 except TypeError:
                     gaps.append(mujoco.mj_ray(*args, None))
-            if 0.0 <= min(gaps) and sum(gaps) <= WIDEST:
-                found.append((sum(gaps), (gaps[0] - gaps[1]) / 2.0))
+            if 0.0 <= min(gaps) and abs(sum(gaps) - width) <= WIDER:
+                found.append((abs(sum(gaps) - width), (gaps[0] - gaps[1]) / 2.0))
         return min(found)[1] if found else 0.0
 
     def pose(self, entity):

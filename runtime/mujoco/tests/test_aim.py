@@ -41,6 +41,9 @@ def test_what_does_not_show_of_a_box_is_behind_the_side_that_does():
     book = {"id": "book", "shape": {"box": [0.14, 0.04, 0.21]}, "pose": pose}
     seen = {"pose": {"xyz": [0.0, 1.985, 0.5]}, "extent": [0.14, 0.01, 0.21]}
     assert np.allclose(centred(seen, book, np.zeros(3)), [0.0, 2.0, 0.5])
+    # Of the side itself one half is hidden: nothing but the belief says which.
+    half = {"pose": {"xyz": [0.035, 1.985, 0.5]}, "extent": [0.07, 0.01, 0.21]}
+    assert np.allclose(centred(half, book, np.array([-0.1, 0.0, 0.5])), [0.0, 2.0, 0.5])
 
 
 def picture():

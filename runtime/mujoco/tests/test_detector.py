@@ -183,3 +183,34 @@ def test_a_book_on_a_notebook_of_its_colour_is_seen_as_both(motet):
         pytest.skip(str(error))
     finally:
         eyes.close()
+
+
+def seen_as(eyes, *found):
+    """Ids that detections get: (label, place, size)."""
+    ones = [{"id": None, "label": label, "extent": list(size), "confidence": 0.9,
+             "pose": {"xyz": [float(part) for part in place], "quaternion": [0.0, 0.0, 0.0, 1.0]}}
+            for label, place, size in found]
+    eyes.assign(ones)
+    return [one["id"] for one in ones]
+
+
+def test_the_best_fit_of_all_comes_first(kitchen):
+    """What is found first may be a piece of something else that stands near."""
+    mug = np.array(kitchen.beliefs.entities["mug_1"]["pose"]["xyz"])
+    piece = ("red box", mug + [0.2, 0.05, -0.03], (0.05, 0.05, 0.04))
+    whole = ("red cylinder", mug, (0.08, 0.08, 0.1))
+    assert seen_as(kitchen, piece, whole)[1] == "mug_1"
+    assert seen_as(kitchen, whole, piece)[0] == "mug_1"
+
+
+def test_a_place_that_was_not_measured_has_no_error(kitchen):
+    """Else it would move on with each look at a part of a thing."""
+    mug = kitchen.beliefs.entities["mug_1"]["pose"]["xyz"]
+    kitchen.rates = {"error_per_m": 0.05, "miss": 0.0, "confuse": 0.0}
+    try:
+        part = {"id": "mug_1", "label": "red mug", "extent": [0.03, 0.02, 0.03], "confidence": 0.9,
+                "pose": {"xyz": list(mug), "quaternion": [0.0, 0.0, 0.0, 1.0]}}
+        part["pose"]["xyz"] = kitchen.middle(part)
+        assert kitchen.erred([part])[0]["pose"]["xyz"] == pytest.approx(mug, abs=1e-4)
+    finally:
+        kitchen.rates = {"error_per_m": 0.0, "miss": 0.0, "confuse": 0.0}

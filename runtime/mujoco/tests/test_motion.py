@@ -193,3 +193,14 @@ def test_a_way_back_that_takes_too_long_is_left_out(mover):
 
     assert seconds(1.5) == 0.0
     assert seconds(30.0) > 1.0
+
+
+def test_a_witness_does_not_open_the_hand_that_holds_a_thing(mover, monkeypatch):
+    """It has the fingers as far apart as the thing is wide, where they would not press it."""
+    monkeypatch.setattr(mover.room, "held", lambda: ["mug_1"])
+    grips, there = list(mover.world.model.grips), mover.goal.copy()
+    there[0] += 0.5
+    there[grips] += 0.3
+    path = mover.smooth(mover.path([mover.goal.copy(), there]))
+    assert np.allclose(path.at(path.end)[0][grips], mover.goal[grips])
+    assert abs(path.at(path.end)[0][0] - there[0]) < 1e-6
