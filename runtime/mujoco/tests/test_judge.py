@@ -84,3 +84,10 @@ def test_trials_are_the_same_whatever_the_number_of_processes_and_shards(motet, 
     for wrong in (["-j", "0"], ["--shard", "2/2"], ["--shard", "a"]):
         with pytest.raises(SystemExit):
             judge.main(["--robot", "panda", *wrong])
+
+
+def test_what_is_held_at_the_start_is_put_down(motet, capsys):
+    """The fingers press on a thing all the way, also where a witness says how far apart they are."""
+    assert judge.main(["--robot", "panda", "--kind", "put", "--format", "json", "--motet", motet]) == 0
+    share = json.loads(capsys.readouterr().out.splitlines()[-1])["shares"]["put"]
+    assert share["held"] == share["of"] > 10
