@@ -354,7 +354,7 @@ impl Prover<'_> {
         })
     }
 
-    /// What facts of conditions may be about, but for derived ones.
+    /// Atoms that facts of conditions may be about, without those of derived fluents.
     pub(super) fn atoms_of(&self, facts: Vec<&Fact>) -> Vec<Atom> {
         let mut atoms = Vec::new();
         for fact in facts {

@@ -105,12 +105,17 @@ def hold(scene, thing, holds):
         robot.pop("grip", None)
 
 
+def slid(container):
+    """Offset in m in the map by which an open drawer is off its place now."""
+    way = drawn(container) if container.get("open") else None
+    return np.zeros(3) if way is None else way
+
+
 def slide(container, is_open, things):
     """Opens or shuts a container, and takes along what lies in a drawer."""
-    before = drawn(container) if container.get("open") else None
+    before = slid(container)
     container["open"] = is_open
-    after = drawn(container) if is_open else None
-    way = sum((part * sign for part, sign in ((after, 1.0), (before, -1.0)) if part is not None), np.zeros(3))
+    way = slid(container) - before
     for thing in things:
         if thing.get("in") == container["id"] and "pose" in thing:
             thing["pose"]["xyz"] = [float(at) for at in np.array(thing["pose"]["xyz"]) + way]
@@ -132,10 +137,7 @@ def lay(scene, thing, relation, support):
     relate(thing, relation, support)
     others = [np.array(one["pose"]["xyz"][:2]) for one in scene["entities"] if "pose" in one and one is not thing
               and support["id"] in (one.get("on"), one.get("in"))]
-    shape, (x, y, z) = support["shape"], np.array(support["pose"]["xyz"], dtype=float)
-    way = drawn(support) if support.get("open") else None
-    if way is not None:
-        x, y, z = way + (x, y, z)
+    shape, (x, y, z) = support["shape"], np.array(support["pose"]["xyz"]) + slid(support)
     yaw = support["pose"].get("rpy", (0.0, 0.0, 0.0))[2]
     sides = shape.get("box") or [1.4 * next(iter(shape.values())).get("radius", 0.2)] * 2
     spans = [np.linspace(-1.0, 1.0, 9) * max(side / 2.0 - RIM, 0.0) for side in sides[:2]]

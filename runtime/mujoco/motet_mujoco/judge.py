@@ -64,10 +64,6 @@ def follow(world, points, share, until=lambda: False):
     """Follows points, and measures the error of the hand in m and rad, as rows: the greatest along the whole
     path, and the one at its end. With a thing in the hand it accelerates as little as the driver and the
     times of a witness do. Ends early where `until` says so."""
-    if world.held():
-        # The fingers press on the thing: a witness says how far apart they are.
-        grips, points = list(world.model.grips), np.array(points)
-        points[:, grips] = world.target[grips]
     path = timed(points, world.model, share)
     if world.held():
         path = Path([gentle(world, stroke) for stroke in path.strokes])

@@ -230,9 +230,17 @@ def frame_at(world, target):
 
 def phases(points, grips, phase="move"):
     """The parts of a path between what its hand does: `move`, `grip`, `draw` with closed fingers, `release`."""
-    parts = [(phase, [points[0]])]
+
+    def pressed(point):
+        point = np.array(point)
+        if phase == "draw":
+            # A witness has the fingers as far apart as what they hold is wide.
+            for at, (_, closed) in grips.items():
+                point[at] = closed
+        return point
+
+    parts = [(phase, [pressed(points[0])])]
     for before, after in zip(points, points[1:]):
-        point = np.array(after)
         further = sum(abs(after[at] - opened) - abs(before[at] - opened) for at, (opened, _) in grips.items())
         if phase == "move" and further > 1e-6 and not any(part == "release" for part, _ in parts):
             parts.append(("grip", []))
@@ -240,9 +248,7 @@ def phases(points, grips, phase="move"):
         elif phase == "draw" and further < -1e-6:
             parts.append(("release", []))
             phase = "move"
-        if phase == "draw":
-            for at, (_, closed) in grips.items():
-                point[at] = closed
+        point = pressed(after)
         if parts[-1][0] in ("grip", "release"):
             start = parts[-2][1][-1].copy()
             start[list(grips)] = point[list(grips)]

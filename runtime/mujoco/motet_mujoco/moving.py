@@ -379,12 +379,12 @@ class Mover:
         model, (x, y, yaw) = self.world.model, self.world.base()
         towards, best, least = float(np.arctan2(y - spot[1], x - spot[0])), None, np.inf
         for off, turn in itertools.product(AROUND if model.drives else (), TURNS):
+            if least <= ASIDE or self.world.now + THINKS > until:
+                break
             far, angle, scene = model.card[1] + off, towards + turn, self.supposing(one, place)
             stand = spot[0] + far * np.cos(angle), spot[1] + far * np.sin(angle)
             stand = (*stand, near_turn(angle + np.pi, yaw))
             scene["robot"]["base"] = [float(part) for part in stand]
-            if least <= ASIDE or self.world.now + THINKS > until:
-                break
             yield from self.pause(THINKS)
             if self.planner.ask(scene, query)[0] is None:
                 continue

@@ -88,3 +88,12 @@ def pose(place):
 def fact(fluent, *args, holds=True):
     """A fact of `hello`."""
     return {"query": {"fact": {"fluent": fluent, "args": [{"is": {"entity": one}} for one in args]}}, "holds": holds}
+
+
+def placed(world, base, tilt=-0.5):
+    """Puts the robot somewhere at once, its head bent: the targets for that. The base may be x and y alone."""
+    target = world.target.copy()
+    target[: len(base)] = base
+    target[world.model.controls["head_tilt_joint"]] = tilt
+    world.data.qpos[world.model.control_qpos] = target
+    return target

@@ -5,7 +5,7 @@ import sys
 
 import numpy as np
 import pytest
-from host import Host, entity, fact, text
+from host import Host, entity, fact, placed, text
 from motet_mujoco.beliefs import Beliefs
 from motet_mujoco.camera import NoGraphics
 from motet_mujoco.driver import Driver, Options
@@ -188,12 +188,7 @@ def truths(driver, fluent, *args):
 
 def stand(driver, x, y, yaw=0.0, tilt=-0.5):
     """Puts the robot somewhere, its head bent."""
-    world = driver.world
-    target = world.target.copy()
-    target[:3] = [x, y, yaw]
-    target[world.model.controls["head_tilt_joint"]] = tilt
-    world.data.qpos[world.model.control_qpos] = target
-    driver.tasks.goal[:] = target
+    driver.tasks.goal[:] = placed(driver.world, [x, y, yaw], tilt)
     for _ in range(5):
         driver.tick()
 

@@ -5,6 +5,7 @@ import types
 
 import numpy as np
 import pytest
+from host import placed
 from motet_mujoco import detector, open_vocabulary
 from motet_mujoco.beliefs import Beliefs
 from motet_mujoco.camera import Camera, NoGraphics
@@ -17,11 +18,7 @@ from motet_mujoco.world import World
 def kitchen(motet):
     """The robot before the table, the head bent."""
     world = World(load("hsr", "kitchen", motet))
-    target = world.target.copy()
-    target[:2] = [0.9, 0.4]
-    target[world.model.controls["head_tilt_joint"]] = -0.5
-    world.data.qpos[world.model.control_qpos] = target
-    world.step(target)
+    world.step(placed(world, [0.9, 0.4]))
     beliefs = Beliefs(world)
     eyes = Eyes(world, beliefs)
     try:
@@ -164,11 +161,7 @@ def test_a_side_of_a_large_thing_tells_where_all_of_it_is(motet):
 
 def test_a_book_on_a_notebook_of_its_colour_is_seen_as_both(motet):
     world = World(load("hsr", "lab", motet))
-    target = world.target.copy()
-    target[:3] = [0.2, -1.2, -np.pi / 2.0]
-    target[world.model.controls["head_tilt_joint"]] = -0.5
-    world.data.qpos[world.model.control_qpos] = target
-    world.step(target)
+    world.step(placed(world, [0.2, -1.2, -np.pi / 2.0]))
     eyes = Eyes(world, Beliefs(world))
     try:
         both = {one["id"]: np.array(one["pose"]["xyz"]) for one in eyes.detections()}

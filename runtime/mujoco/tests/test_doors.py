@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from host import placed
 from motet_mujoco.beliefs import Beliefs
 from motet_mujoco.camera import NoGraphics
 from motet_mujoco.eyes import Eyes
@@ -15,11 +16,7 @@ def test_a_door_is_seen_to_be_as_far_open_as_it_is(motet, share):
     world = World(load("hsr", "kitchen", motet))
     joint, opened, _ = world.model.doors["fridge_1"]
     world.data.qpos[joint] = share * opened
-    target = world.target.copy()
-    target[:3] = [-0.3, -0.7, -np.pi / 2.0]
-    target[world.model.controls["head_tilt_joint"]] = -0.3
-    world.data.qpos[world.model.control_qpos] = target
-    world.step(target)
+    world.step(placed(world, [-0.3, -0.7, -np.pi / 2.0], -0.3))
     beliefs = Beliefs(world)
     eyes = Eyes(world, beliefs)
     try:

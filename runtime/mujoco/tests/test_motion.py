@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from motet_mujoco.beliefs import Beliefs
 from motet_mujoco.chance import Chance, profile
+from motet_mujoco.clearance import Clearance
 from motet_mujoco.driver import Driver, Options
 from motet_mujoco.judge import SCENES, tip_error
 from motet_mujoco.model import load
@@ -103,8 +104,6 @@ def test_a_path_turns_round_only_at_rest(hsr):
 
 
 def test_a_corner_into_furniture_is_not_cut(mover):
-    from motet_mujoco.clearance import Clearance
-
     world = mover.world
     before, corner, after = (world.target.copy() for _ in range(3))
     low, high = world.bounds("kitchen_table")

@@ -61,9 +61,9 @@ impl SceneState {
     /// The same with an object in the hand, and the fingers around it, whatever the scene says of them.
     fn holding(&self, model: &RobotModel, scene: &Scene, id: &SmolStr, grip: Isometry3<f64>) -> Self {
         let mut state = Self { held: Some((id.clone(), grip)), ..self.clone() };
-        let planning = PlanningScene::new(model, scene, &state);
-        let held = planning.held_object(id).map(|held| (held.hand, held.width));
-        if let Some((hand, width)) = held {
+        let shape = scene.entities.get(id).and_then(solid_shape);
+        if let Some((hand, shape)) = model.hand().zip(shape) {
+            let width = hand.width(shape, &grip);
             state.robot.joints = hand.around(&state.robot.joints, model.rest(), width);
         }
         state

@@ -325,8 +325,7 @@ impl<'w> PlanningScene<'w> {
         let (held, tip_from_object) = self.state.held.as_ref().filter(|(held, _)| held == id)?;
         let (hand, (_, entity)) = (self.model.hand()?, self.entity(held)?);
         let shape = solid_shape(entity)?;
-        let closes = tip_from_object.rotation.inverse() * Vector3::from(hand.card.closes);
-        let width = 2.0 * Solid::new(&Isometry3::identity(), shape).extent(&closes);
+        let width = hand.width(shape, tip_from_object);
         Some(HeldObject { id: held.clone(), tip_from_object: *tip_from_object, hand, shape, width })
     }
 

@@ -338,6 +338,12 @@ impl HandModel {
         if self.has_fixed_jaw { width / 2.0 } else { 0.0 }
     }
 
+    /// Width in m between the fingers of an object with a pose in the frame of the tip.
+    pub(crate) fn width(&self, shape: Shape, tip_from_object: &Isometry3<f64>) -> f64 {
+        let closes = tip_from_object.rotation.inverse() * Vector3::from(self.card.closes);
+        2.0 * Solid::new(&Isometry3::identity(), shape).extent(&closes)
+    }
+
     /// Joint values with the hand open.
     #[must_use]
     pub fn opened(&self, joints: &[f64]) -> Vec<f64> {
