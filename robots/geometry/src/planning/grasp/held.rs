@@ -61,10 +61,8 @@ impl SceneState {
     /// The same with an object in the hand, and the fingers around it, whatever the scene says of them.
     fn holding(&self, model: &RobotModel, scene: &Scene, id: &SmolStr, grip: Isometry3<f64>) -> Self {
         let mut state = Self { held: Some((id.clone(), grip)), ..self.clone() };
-        let shape = scene.entities.get(id).and_then(solid_shape);
-        if let Some((hand, shape)) = model.hand().zip(shape) {
-            let width = hand.width(shape, &grip);
-            state.robot.joints = hand.around(&state.robot.joints, model.rest(), width);
+        if let Some((hand, shape)) = model.hand().zip(scene.entities.get(id).and_then(solid_shape)) {
+            state.robot.joints = hand.around(&state.robot.joints, model.rest(), hand.width(shape, &grip));
         }
         state
     }
