@@ -1,7 +1,5 @@
 #![doc = include_str!("../README.md")]
 
-#[cfg(feature = "arbitrary")]
-pub mod arbitrary;
 pub mod draw;
 pub mod encode;
 pub mod model;

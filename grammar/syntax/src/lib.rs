@@ -1,8 +1,5 @@
 #![doc = include_str!("../README.md")]
 
-#[cfg(feature = "arbitrary")]
-#[doc(hidden)]
-pub mod arbitrary;
 pub mod ast;
 pub mod diagnostic;
 pub mod diagnostics;

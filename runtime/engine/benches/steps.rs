@@ -7,7 +7,7 @@ mod beside;
 mod swaps;
 
 use criterion::{BatchSize, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use motet_graph::arbitrary::{CallSketch, ReactionSketch, StepSketch, WatchSketch, graph, vocabulary as v};
+use motet_arbitrary::graph::{CallSketch, ReactionSketch, StepSketch, WatchSketch, graph, vocabulary as v};
 use motet_graph::{Condition, Value};
 use motet_runtime::{
     Answer, DriverEvent, Effect, Engine, Event, GoalId, Outcome, Pattern, Query, StartState, Time,

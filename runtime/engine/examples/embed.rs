@@ -5,7 +5,7 @@
 
 #![allow(clippy::print_stdout, reason = "a program for the terminal")]
 
-use motet_graph::arbitrary::{StepSketch, graph};
+use motet_arbitrary::graph::{StepSketch, graph};
 use motet_runtime::{
     Capabilities, Command, Driver, DriverEvent, Effect, Engine, Event, GoalId, Outcome, PreparedSwap,
     PrimitiveSet, Query, StartState, Time,

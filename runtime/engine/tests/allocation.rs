@@ -3,8 +3,8 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
+use motet_arbitrary::graph::{ReactionSketch, StepSketch, WatchSketch, graph, vocabulary};
 use motet_graph::Value;
-use motet_graph::arbitrary::{ReactionSketch, StepSketch, WatchSketch, graph, vocabulary};
 use motet_runtime::{Answer, DriverEvent, Effect, Engine, Event, GoalId, Outcome, Query, StartState, Time};
 
 fn started(out: &[Effect]) -> Option<GoalId> {

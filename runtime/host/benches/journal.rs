@@ -1,7 +1,7 @@
 //! Cost of writing an event: as a line, in a group, and synced to disk one by one.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use motet_graph::arbitrary::{StepSketch, graph};
+use motet_arbitrary::graph::{StepSketch, graph};
 use motet_host::journal::{JournalWriter, SyncGrouping};
 use motet_runtime::journal::{JournalHead, LineChain};
 use motet_runtime::{DriverEvent, Effect, Engine, Event, GoalId, Outcome, StartState, Time};

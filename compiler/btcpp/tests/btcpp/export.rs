@@ -1,8 +1,8 @@
 //! Export: what a tree says, and what it refuses.
 
+use motet_arbitrary::graph::vocabulary as v;
+use motet_arbitrary::graph::{CallSketch, ReactionSketch, StepSketch, WatchSketch, graph};
 use motet_btcpp::{Leaves, export};
-use motet_graph::arbitrary::vocabulary as v;
-use motet_graph::arbitrary::{CallSketch, ReactionSketch, StepSketch, WatchSketch, graph};
 use motet_graph::{Condition, Ending, Fact, FactArg, FluentId};
 
 fn holding(object: &str) -> Condition {

@@ -12,8 +12,8 @@ use std::collections::{BTreeMap, VecDeque};
 use std::path::PathBuf;
 use std::process::Command as Process;
 
+use motet_arbitrary::graph::graph;
 use motet_btcpp::{Leaves, PortType, export};
-use motet_graph::arbitrary::graph;
 use motet_graph::{Graph, NodeKind, Value};
 use motet_runtime::{
     Answer, Command, Driver, DriverEvent, Engine, FailureReport, GoalId, Outcome, Pattern, Query, RunEnd,

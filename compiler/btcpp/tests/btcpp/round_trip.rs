@@ -1,9 +1,9 @@
 //! Trees that are imported and exported again are the same.
 
+use motet_arbitrary::graph::graph;
 use motet_btcpp::{export, import};
 use motet_compiler::Session;
 use motet_graph::Graph;
-use motet_graph::arbitrary::graph;
 use motet_syntax::{FileId, Parsed, Severity, Source, Sources, Syntax, print};
 use proptest::strategy::{Strategy as _, ValueTree as _};
 use proptest::test_runner::TestRunner;

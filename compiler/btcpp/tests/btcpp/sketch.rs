@@ -1,7 +1,7 @@
 //! Random steps that a behaviour tree can say.
 
-use motet_graph::arbitrary::vocabulary as v;
-use motet_graph::arbitrary::{CallSketch, ReactionSketch, StepSketch, WatchSketch, steps};
+use motet_arbitrary::graph::vocabulary as v;
+use motet_arbitrary::graph::{CallSketch, ReactionSketch, StepSketch, WatchSketch, steps};
 use motet_graph::{Comparison, Condition, Fact, FactArg, Term};
 use proptest::collection::vec;
 use proptest::prelude::*;

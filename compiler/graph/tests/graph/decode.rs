@@ -1,6 +1,6 @@
 //! Documents that are no graph are refused with a clear word.
 
-use motet_graph::arbitrary::{ReactionSketch, StepSketch, WatchSketch, graph, vocabulary as v};
+use motet_arbitrary::graph::{ReactionSketch, StepSketch, WatchSketch, graph, vocabulary as v};
 use motet_graph::{
     Arithmetic, Clearance, Comparison, Condition, Configuration, Ending, Fact, FactArg, Graph, Grasp,
     InitialFact, Motion, NodeKind, Pose, Term, Unsettled, Value, Verdict, Waypoint, Witness, decode, draw,

@@ -1,7 +1,7 @@
 //! Drawings of a graph with every kind of step.
 
-use motet_graph::arbitrary::vocabulary as v;
-use motet_graph::arbitrary::{CallSketch, ReactionSketch, StepSketch, WatchSketch, graph};
+use motet_arbitrary::graph::vocabulary as v;
+use motet_arbitrary::graph::{CallSketch, ReactionSketch, StepSketch, WatchSketch, graph};
 use motet_graph::{Condition, Ending, Graph, draw};
 
 fn example() -> Graph {

@@ -1,7 +1,7 @@
 //! Properties of graphs: they validate, round trip, hash and draw alike; mutated ones are refused or stay
 //! harmless.
 
-use motet_graph::arbitrary::graphs;
+use motet_arbitrary::graph::graphs;
 use motet_graph::{NodeId, RegionId, decode, draw, encode, hash, validate};
 use proptest::prelude::*;
 

@@ -1,7 +1,7 @@
 //! Every reason for which a graph is refused, each by one change of a sound graph.
 
-use motet_graph::arbitrary::vocabulary as v;
-use motet_graph::arbitrary::{CallSketch, ReactionSketch, StepSketch, WatchSketch, graph};
+use motet_arbitrary::graph::vocabulary as v;
+use motet_arbitrary::graph::{CallSketch, ReactionSketch, StepSketch, WatchSketch, graph};
 use motet_graph::{
     BindingId, Comparison, Condition, Ending, Fact, FactArg, FailureId, FluentId, Graph, InitialFact, KindId,
     Manner, MeasureId, NodeId, NodeKind, PrimitiveId, Reaction, RegionId, ResourceId, Term, Type, Value,
@@ -432,7 +432,7 @@ fn hundred_findings_are_enough() {
 
 #[test]
 fn failures_results_and_goals() {
-    use motet_graph::arbitrary::with_named_failures;
+    use motet_arbitrary::graph::with_named_failures;
     use motet_graph::{FailureId, FailureSentence};
     let handler = (None, vec![StepSketch::say("oh")]);
     let tried = StepSketch::Try(vec![StepSketch::go("table")], vec![handler]);

@@ -82,7 +82,8 @@ impl Expr {
 
     /// Checks if JSON writes an expression as a bare number, a plain string or a list, of which only the
     /// place shows the type.
-    pub(crate) fn shows_no_type(&self) -> bool {
+    #[must_use]
+    pub fn shows_no_type(&self) -> bool {
         matches!(
             self.kind,
             ExprKind::Number(_)

@@ -1,8 +1,9 @@
 //! No input panics, overflows the stack or is misplaced: random bytes, mutated documents, documents at the
 //! limits.
 
+use motet_arbitrary::syntax as arbitrary;
 use motet_syntax::ast::{Item, MAX_BYTES, MAX_NESTING, MAX_STEPS};
-use motet_syntax::{FileId, Parsed, Source, Sources, arbitrary, decode, pointer, print, read, render};
+use motet_syntax::{FileId, Parsed, Source, Sources, decode, pointer, print, read, render};
 use proptest::prelude::*;
 
 /// Reads a text and does everything that can be done with what comes out.

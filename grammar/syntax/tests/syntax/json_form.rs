@@ -1,8 +1,9 @@
 //! The JSON surface: its schema, its canonical layout, pointers into it, and the machine-readable
 //! diagnostics.
 
+use motet_arbitrary::syntax as arbitrary;
 use motet_syntax::ast::{Item, Policy};
-use motet_syntax::{FileId, Source, Sources, Span, arbitrary, pointer, print, read, render};
+use motet_syntax::{FileId, Source, Sources, Span, pointer, print, read, render};
 use proptest::prelude::*;
 
 fn policy(document: &str) -> Policy {

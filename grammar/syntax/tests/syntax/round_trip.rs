@@ -1,7 +1,8 @@
 //! Round trips over made trees of every node kind.
 
+use motet_arbitrary::syntax as arbitrary;
 use motet_syntax::ast::{File, Item, Policy};
-use motet_syntax::{FileId, Source, arbitrary, print, read};
+use motet_syntax::{FileId, Source, print, read};
 use proptest::prelude::*;
 
 /// The file of a text that must be right.

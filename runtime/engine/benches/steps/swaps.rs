@@ -2,7 +2,7 @@
 
 use super::engine;
 use criterion::{BatchSize, BenchmarkId, Criterion, Throughput};
-use motet_graph::arbitrary::{StepSketch, graph};
+use motet_arbitrary::graph::{StepSketch, graph};
 use motet_graph::{BindingId, Graph, Value};
 use motet_runtime::{DriverEvent, Effect, Engine, Event, Outcome, PreparedSwap, Time};
 use std::hint::black_box;

@@ -6,8 +6,8 @@ use crate::script::Feed::{
     Ack, Done, DriverGone, DriverLost, Fails, Gives, Interrupted, Lost, NotHeld, Refused, Stop, Stopped, Tick,
 };
 use crate::script::{at, entity, holding, holding_any, transcript_from, transcript_of};
+use motet_arbitrary::graph::{CallSketch, StepSketch, graph, vocabulary as v};
 use motet_graph::Value;
-use motet_graph::arbitrary::{CallSketch, StepSketch, graph, vocabulary as v};
 use motet_runtime::StartState;
 
 fn pick(object: &str) -> CallSketch {

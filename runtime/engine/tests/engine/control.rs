@@ -3,7 +3,7 @@
 use crate::check;
 use crate::script::Feed::{Ack, Done, Fails, Gives, Interrupted, Tick};
 use crate::script::{distance, entity, holding};
-use motet_graph::arbitrary::{CallSketch, StepSketch, vocabulary as v};
+use motet_arbitrary::graph::{CallSketch, StepSketch, vocabulary as v};
 use motet_graph::{Condition, Ending, Fact, FactArg, Term, Value};
 use motet_runtime::{Effect, Engine, EngineSettings, Event, Fault, RunEnd, StartState, Time};
 
@@ -277,7 +277,7 @@ fn control_fact_with_any_is_known_by_its_witness() {
 #[test]
 fn control_more_transitions_at_one_instant_than_its_budget_end_a_run() {
     let nested = (0..10).fold(StepSketch::say("deep"), |step, _| StepSketch::Sequence(vec![step]));
-    let engine = Engine::new(motet_graph::arbitrary::graph(&[nested]), &StartState::default()).unwrap();
+    let engine = Engine::new(motet_arbitrary::graph::graph(&[nested]), &StartState::default()).unwrap();
     let mut engine = engine.with_settings(EngineSettings { step_budget: 3, ..EngineSettings::default() });
     let mut out = Vec::new();
     engine.handle(Time::ZERO, Event::Begin, &mut out);
@@ -323,7 +323,7 @@ fn control_cleanup_waits_for_its_time() {
 
 #[test]
 fn control_person_stops_before_a_cleanup() {
-    let graph = motet_graph::arbitrary::graph(&[cleaned(vec![StepSketch::go("table")])]);
+    let graph = motet_arbitrary::graph::graph(&[cleaned(vec![StepSketch::go("table")])]);
     let mut engine = Engine::new(graph, &StartState::default()).unwrap();
     let mut out = Vec::new();
     engine.handle(Time::ZERO, Event::Begin, &mut out);
@@ -363,7 +363,7 @@ fn words(out: &[Effect]) -> Vec<&'static str> {
 #[test]
 fn control_person_holds_a_run_and_lets_it_go_on() {
     let steps = [StepSketch::go("table"), StepSketch::say("there"), StepSketch::Delay(2.0)];
-    let mut engine = Engine::new(motet_graph::arbitrary::graph(&steps), &StartState::default()).unwrap();
+    let mut engine = Engine::new(motet_arbitrary::graph::graph(&steps), &StartState::default()).unwrap();
     let mut out = Vec::new();
     let mut at = |engine: &mut Engine, secs: f64, event: Event| {
         out.clear();
@@ -402,7 +402,7 @@ fn control_person_holds_a_run_and_lets_it_go_on() {
 #[test]
 fn control_person_stops_a_held_run() {
     let steps = [StepSketch::go("table"), StepSketch::say("there")];
-    let mut engine = Engine::new(motet_graph::arbitrary::graph(&steps), &StartState::default()).unwrap();
+    let mut engine = Engine::new(motet_arbitrary::graph::graph(&steps), &StartState::default()).unwrap();
     let mut out = Vec::new();
     engine.handle(Time::ZERO, Event::Begin, &mut out);
     let goal = out.iter().find_map(|effect| match effect {

@@ -1,6 +1,6 @@
 //! The host loop with a small driver in virtual time.
 
-use motet_graph::arbitrary::{StepSketch, graph};
+use motet_arbitrary::graph::{StepSketch, graph};
 use motet_runtime::{
     Command, Driver, DriverEvent, Effect, Engine, Fault, GoalId, Observer, Outcome, Query, RunControl,
     RunEnd, StartState, Time, run,

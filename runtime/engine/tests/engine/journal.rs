@@ -2,7 +2,7 @@
 //! the byte.
 
 use crate::ready::{Run, run, success};
-use motet_graph::arbitrary::{StepSketch, graph, steps};
+use motet_arbitrary::graph::{StepSketch, graph, steps};
 use motet_runtime::journal::{
     EngineReplay, JournalDamage, JournalEntry, JournalReader, SegmentEnd, SegmentPosition,
 };

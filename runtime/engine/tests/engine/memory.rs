@@ -1,7 +1,7 @@
 //! What a run remembers, and how it is bounded.
 
 use crate::ready::{Run, goal, run, success};
-use motet_graph::arbitrary::{StepSketch, graph};
+use motet_arbitrary::graph::{StepSketch, graph};
 use motet_runtime::memory::{Memory, MemoryEvent, MemoryLimits};
 use motet_runtime::{
     Answer, DriverEvent, Effect, Engine, Event, GoalId, Outcome, PreparedSwap, StartState, Time,

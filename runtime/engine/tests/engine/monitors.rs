@@ -3,7 +3,7 @@
 use crate::check;
 use crate::script::Feed::{Ack, Done, Fails, Interrupted, NotHeld, Stop, Tick};
 use crate::script::{distance, holding};
-use motet_graph::arbitrary::{CallSketch, ReactionSketch, StepSketch, WatchSketch, vocabulary as v};
+use motet_arbitrary::graph::{CallSketch, ReactionSketch, StepSketch, WatchSketch, vocabulary as v};
 use motet_graph::{Condition, Ending};
 
 fn near(limit_m: f64) -> Condition {

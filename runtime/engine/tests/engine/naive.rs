@@ -3,7 +3,7 @@
 //! middle of an action; what runs at once (monitors, waits, parallel branches) is made one after the other
 //! before: `rescan.rs` has that.
 
-use motet_graph::arbitrary::{CallSketch, StepSketch, graph, steps, vocabulary as v, with_named_failures};
+use motet_arbitrary::graph::{CallSketch, StepSketch, graph, steps, vocabulary as v, with_named_failures};
 use motet_graph::{
     Arithmetic, BindingId, CallNode, Comparison, Condition, Ending, Fact, FactArg, FailureSentence, Graph,
     NodeId, NodeKind, ROOT, RegionId, Term, TextPart, Value, Verdict, spoken,

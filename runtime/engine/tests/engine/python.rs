@@ -11,8 +11,8 @@ use std::collections::{BTreeMap, VecDeque};
 use std::path::{Path, PathBuf};
 use std::process::Command as Process;
 
-use motet_graph::arbitrary::{CallSketch, StepSketch, WatchSketch, graph, steps, with_named_failures};
-use motet_graph::arbitrary::{ReactionSketch, vocabulary as v};
+use motet_arbitrary::graph::{CallSketch, StepSketch, WatchSketch, graph, steps, with_named_failures};
+use motet_arbitrary::graph::{ReactionSketch, vocabulary as v};
 use motet_graph::{Condition, Graph, Value, python};
 use motet_runtime::{
     Answer, Command, DriverEvent, Effect, Engine, Event, FailureReport, GoalId, Outcome, Query, RunEnd,

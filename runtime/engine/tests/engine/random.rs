@@ -2,8 +2,8 @@
 //! refused swap changes nothing, and a replay is the same.
 
 use crate::verify::with_motions;
-use motet_graph::arbitrary::vocabulary::{PICK, PLACE};
-use motet_graph::arbitrary::{StepSketch, graph, steps, vocabulary as v, with_named_failures};
+use motet_arbitrary::graph::vocabulary::{PICK, PLACE};
+use motet_arbitrary::graph::{StepSketch, graph, steps, vocabulary as v, with_named_failures};
 use motet_graph::{Condition, Graph, NodeId, NodeKind, PrimitiveId, Type, Value};
 use motet_runtime::{
     Answer, Capabilities, CheckId, DriverEvent, Effect, Engine, EngineSettings, Event, Fault, GoalId,

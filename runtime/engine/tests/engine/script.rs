@@ -1,6 +1,6 @@
 //! Runs a sketched policy through a script of events and writes down every effect.
 
-use motet_graph::arbitrary::{StepSketch, graph};
+use motet_arbitrary::graph::{StepSketch, graph};
 use motet_graph::{Graph, Value};
 use motet_runtime::{
     Answer, Capabilities, DriverEvent, Effect, Engine, Event, GoalId, Outcome, Pattern, PreparedSwap,

@@ -1,6 +1,6 @@
 //! The state that an engine hands out, and an engine that starts from it.
 
-use motet_graph::arbitrary::{StepSketch, graph};
+use motet_arbitrary::graph::{StepSketch, graph};
 use motet_graph::{Grasp, Motion, NodeKind, Pose, Term, Value, Verdict, Waypoint, Witness};
 use motet_runtime::{
     Answer, DriverEvent, Effect, Engine, Event, Outcome, Pattern, Query, Snapshot, StartState, Time,

@@ -4,7 +4,7 @@
 use crate::check;
 use crate::script::Feed::{Ack, Done, Fails, Gives, Interrupted, Lost, Refused, Stop, Stopped, Swap, Tick};
 use crate::script::{distance, entity, holding};
-use motet_graph::arbitrary::{CallSketch, ReactionSketch, StepSketch, WatchSketch, graph, vocabulary as v};
+use motet_arbitrary::graph::{CallSketch, ReactionSketch, StepSketch, WatchSketch, graph, vocabulary as v};
 use motet_graph::{Condition, Fact, FactArg, Graph, InitialFact, Manner, NodeId, Value};
 use motet_runtime::{
     Capabilities, DriverEvent, Effect, Engine, Event, Outcome, PreparedSwap, PrimitiveSet, RunEnd,

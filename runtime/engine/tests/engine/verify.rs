@@ -1,6 +1,6 @@
 //! Motions that were left to the run: somebody is asked before the call starts, and what they say decides.
 
-use motet_graph::arbitrary::{ReactionSketch, StepSketch, WatchSketch, graph, vocabulary as v};
+use motet_arbitrary::graph::{ReactionSketch, StepSketch, WatchSketch, graph, vocabulary as v};
 use motet_graph::{Condition, Graph, Motion, NodeKind, PrimitiveId, Verdict};
 use motet_runtime::{
     Answer, CheckId, DriverEvent, Effect, Engine, EngineSettings, Event, Outcome, Pattern, PreparedSwap,
@@ -162,7 +162,7 @@ fn verify_after_a_swap_the_verdict_for_the_policy_before_is_ignored() {
 
 #[test]
 fn verify_retry_asks_again() {
-    let go = motet_graph::arbitrary::CallSketch::new(v::GO, vec![v::entity("table")]).retry(1);
+    let go = motet_arbitrary::graph::CallSketch::new(v::GO, vec![v::entity("table")]).retry(1);
     let mut scene = Scene::new(&[StepSketch::Call(go)], Some(1.0));
     let (_, checks) = scene.look();
     scene.verdict(0.1, checks[0], infeasible());

@@ -1,7 +1,7 @@
 //! Journals on disk: cut where torn, refused where damaged, written by one process at a time.
 
+use motet_arbitrary::graph::{StepSketch, graph};
 use motet_graph::Graph;
-use motet_graph::arbitrary::{StepSketch, graph};
 use motet_host::journal::{JournalError, JournalWriter, RunRecorder, read};
 use motet_runtime::journal::{EngineReplay, JournalEntry, JournalHead};
 use motet_runtime::{

@@ -2,7 +2,7 @@
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use motet_graph::arbitrary::{StepSketch, graph};
+use motet_arbitrary::graph::{StepSketch, graph};
 use motet_host::remote::protocol::{CalledPrimitive, Hello};
 use motet_host::remote::{DriverAddress, DriverLog, DriverTimeouts, LineFrom, LinkError, RemoteDriver};
 use motet_runtime::journal::{OpenGoal, OpenGoals};

@@ -2,7 +2,7 @@
 
 use super::clock::CANCEL_WITHIN;
 use super::state::{At, Flow, Naive, Phase, Wish};
-use motet_graph::arbitrary::vocabulary as v;
+use motet_arbitrary::graph::vocabulary as v;
 use motet_graph::{NodeId, NodeKind, RegionId};
 use motet_runtime::Outcome;
 

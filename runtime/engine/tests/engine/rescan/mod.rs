@@ -13,7 +13,7 @@ mod state;
 mod swap;
 mod watch;
 
-use motet_graph::arbitrary::{ReactionSketch, StepSketch, WatchSketch, steps, vocabulary as v};
+use motet_arbitrary::graph::{ReactionSketch, StepSketch, WatchSketch, steps, vocabulary as v};
 use motet_graph::{Condition, Graph, NodeId, NodeKind, ROOT, Value};
 use motet_runtime::{
     Answer, Capabilities, DriverEvent, Effect, Engine, Event, GoalId, Outcome, Pattern, PreparedSwap,

@@ -1,7 +1,7 @@
 //! Policies without contracts, in which everything that conditions speak of is known, and no two times are
 //! the same.
 
-use motet_graph::arbitrary::{CallSketch, ReactionSketch, StepSketch, WatchSketch, graph, vocabulary as v};
+use motet_arbitrary::graph::{CallSketch, ReactionSketch, StepSketch, WatchSketch, graph, vocabulary as v};
 use motet_graph::{Condition, FactArg, Graph, NodeKind, Reaction, Term, Value, Verdict};
 
 /// The same steps without contracts.

@@ -2,7 +2,7 @@
 
 use super::clock::{CANCEL_WITHIN, SAFE_STOP_WITHIN};
 use super::state::{At, Naive, Nanos, Orphan, Phase, Wish};
-use motet_graph::arbitrary::vocabulary as v;
+use motet_arbitrary::graph::vocabulary as v;
 use motet_graph::{Graph, NodeId, ROOT};
 use motet_runtime::RunEnd;
 

@@ -2,7 +2,7 @@
 
 use super::vocabulary::{self as v, entity, fact};
 use super::{CallSketch, ReactionSketch, StepSketch, WatchSketch, layout};
-use crate::model::{
+use motet_graph::{
     Comparison, Condition, Ending, Fact, FactArg, Graph, Manner, PrimitiveId, Term, TextPart, Type, Value,
     Verdict,
 };
@@ -151,7 +151,7 @@ fn list() -> impl Strategy<Value = Term> {
     vec(object(), 0..4).prop_map(Term::List)
 }
 
-fn failure() -> impl Strategy<Value = crate::model::FailureId> {
+fn failure() -> impl Strategy<Value = motet_graph::FailureId> {
     prop_oneof![
         Just(v::TIMEOUT),
         Just(v::FAILED),

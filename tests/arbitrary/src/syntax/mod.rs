@@ -1,14 +1,14 @@
 //! Trees made from bytes, for property tests and fuzzing: every sequence of bytes is a tree, shorter
 //! sequences are smaller trees, so what shrinks bytes shrinks trees. Every node kind comes up. The trees mean
-//! nothing: names are not declared and types do not fit. Only with the feature `arbitrary`.
+//! nothing: names are not declared and types do not fit.
 
 mod declaration;
 mod expr;
 
 use smol_str::SmolStr;
 
-use crate::ast::{File, Name, Policy};
-use crate::source::Span;
+use motet_syntax::ast::{File, Name, Policy};
+use motet_syntax::source::Span;
 
 /// Syntax that a tree looks as if it was read from.
 #[derive(Clone, Copy, PartialEq, Eq)]

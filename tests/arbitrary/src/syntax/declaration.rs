@@ -3,12 +3,12 @@
 use smol_str::SmolStr;
 
 use super::{DEPTH, Flavor, TreeGenerator};
-use crate::ast::{
+use motet_syntax::ast::{
     Block, Catch, CatchOn, Clause, Do, End, EndKind, EntitiesDecl, EnumDecl, Expr, ExprKind, FailureDecl,
     File, FluentDecl, InitiallyDecl, Item, Keep, KeepKind, KindDecl, Manner, MeasureDecl, Param, Policy,
     PrimitiveDecl, PrimitiveKind, Quantified, Reaction, Step, StepKind, TypeExpr, When,
 };
-use crate::unit::Unit;
+use motet_syntax::unit::Unit;
 
 impl TreeGenerator<'_> {
     pub(super) fn file(&mut self) -> File {

@@ -3,8 +3,8 @@
 use smol_str::{SmolStr, format_smolstr};
 
 use super::{Flavor, TreeGenerator};
-use crate::ast::{Arg, ArithOp, Call, CompareOp, Expr, ExprKind, TextPart};
-use crate::unit::{Dimension, Unit};
+use motet_syntax::ast::{Arg, ArithOp, Call, CompareOp, Expr, ExprKind, TextPart};
+use motet_syntax::unit::{Dimension, Unit};
 
 /// Position of a term, which decides if it may be `any`.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -112,7 +112,7 @@ impl TreeGenerator<'_> {
             Flavor::Json if is_si && place != TermPosition::Untyped => ExprKind::Number(value),
             Flavor::Json => {
                 let quantity = self.expr(ExprKind::Quantity(value, unit));
-                ExprKind::Plain(crate::print::expression(&quantity).into())
+                ExprKind::Plain(motet_syntax::print::expression(&quantity).into())
             }
         }
     }
@@ -153,7 +153,7 @@ impl TreeGenerator<'_> {
             };
             // What is quoted inside would end the value.
             let value = self.expr(kind);
-            let is_plain = !crate::print::expression(&value).contains(['"', '{']);
+            let is_plain = !motet_syntax::print::expression(&value).contains(['"', '{']);
             let value = if is_plain { value } else { self.expr(ExprKind::Name("mug_1".into())) };
             parts.extend([
                 TextPart::Literal(format_smolstr!("the {}", self.choice.text())),
@@ -168,7 +168,7 @@ impl TreeGenerator<'_> {
     fn pose(&mut self, depth: usize) -> Call {
         let values = self.some(0, |it| it.term(depth)).into_iter();
         let args = values.map(|value| Arg { name: None, span: value.span, value }).collect();
-        let name = crate::ast::Name { text: crate::ast::POSE.into(), span: self.span() };
+        let name = motet_syntax::ast::Name { text: motet_syntax::ast::POSE.into(), span: self.span() };
         Call { name, args, span: self.span() }
     }
 
@@ -191,7 +191,7 @@ impl TreeGenerator<'_> {
         const KEYS: &[&str] = &["object", "to the", "on"];
         let key = KEYS.get(index).map_or_else(SmolStr::default, SmolStr::new);
         let is_named = self.flavor == Flavor::Json || self.choice.is_heads();
-        let name = is_named.then(|| crate::ast::Name { text: key, span: self.span() });
+        let name = is_named.then(|| motet_syntax::ast::Name { text: key, span: self.span() });
         Arg { name, value: self.term_in(place, depth), span: self.span() }
     }
 

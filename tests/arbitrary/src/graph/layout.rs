@@ -2,7 +2,7 @@
 
 use super::vocabulary::{self as v, DETECT, SAY};
 use super::{CallSketch, ReactionSketch, StepSketch, WatchSketch};
-use crate::model::{
+use motet_graph::{
     Binding, BindingId, CallNode, Condition, DurationBounds, Ending, Fact, FactArg, Graph, Handler, Node,
     NodeId, NodeKind, ROOT, Reaction, Region, RegionId, ResourceId, Term, TextPart, Type, Watch,
 };

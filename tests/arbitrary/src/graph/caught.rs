@@ -1,7 +1,7 @@
 //! Names for the failures that handlers catch.
 
 use super::vocabulary::SAY;
-use crate::model::{Binding, BindingId, CaughtFailure, Graph, NodeKind, RegionId, Term, TextPart, Type};
+use motet_graph::{Binding, BindingId, CaughtFailure, Graph, NodeKind, RegionId, Term, TextPart, Type};
 use smol_str::{SmolStr, format_smolstr};
 
 /// The graph with a name for the failure of each handler. Every `say` that is a step of the handler itself

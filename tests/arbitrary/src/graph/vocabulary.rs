@@ -1,6 +1,6 @@
 //! The declarations that sketched graphs use.
 
-use crate::model::{
+use motet_graph::{
     Binding, CallEffect, Comparison, Condition, DurationBounds, EntityName, Fact, FactArg, FailureId,
     FailureSentence, Fluent, FluentId, Graph, InitialFact, Kind, KindId, Measure, MeasureId, Need, Param,
     Primitive, PrimitiveId, Resource, ResourceId, Term, Type, Unsettled, Value, Verdict,

@@ -15,7 +15,7 @@ pub use layout::graph;
 pub use strategy::{conditions, graphs, steps};
 
 use self::vocabulary as v;
-use crate::model::{BindingId, Condition, Ending, FailureId, Manner, PrimitiveId, Term, Verdict};
+use motet_graph::{BindingId, Condition, Ending, FailureId, Manner, PrimitiveId, Term, Verdict};
 
 /// Sketch of a step.
 #[derive(Clone, Debug)]
