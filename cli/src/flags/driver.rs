@@ -47,6 +47,11 @@ pub(crate) struct DriverArgs {
 }
 
 impl DriverArgs {
+    /// Profile of the simulation.
+    fn profile(&self) -> &str {
+        self.profile.as_deref().unwrap_or("typical")
+    }
+
     /// Refuses flags that mean nothing to the driver.
     pub(crate) fn refuse_flags(&self) -> Result<(), CliError> {
         if matches!(self.driver, DriverChoice::Kinematic | DriverChoice::Mujoco) {
@@ -92,10 +97,7 @@ impl DriverArgs {
             Some(name) => Some(read_scene(name, &mut Sources::default(), sink)?),
             None => None,
         };
-        Ok(inputs
-            .with_profile(read_profile(self.profile.as_deref().unwrap_or("typical"))?)
-            .with_world(world)
-            .with_eye(eye))
+        Ok(inputs.with_profile(read_profile(self.profile())?).with_world(world).with_eye(eye))
     }
 }
 
@@ -215,7 +217,7 @@ impl DriverChoice {
                 let path = |path: Option<&Path>| path.map(|path| path.display().to_string());
                 let flags = [
                     ("--told", simulation.world.as_ref().map(|_| scene.to_owned())),
-                    ("--profile", simulation.profile.clone()),
+                    ("--profile", Some(simulation.profile().to_owned())),
                     ("--faults", path(simulation.faults.as_deref())),
                     ("--answers-file", path(simulation.answers.as_deref())),
                 ];

@@ -90,7 +90,10 @@ fn physics_gets_the_robot_the_scene_and_the_seed_of_the_run() {
         .file("motet_mujoco/__main__.py", stand_in);
     place.run("run good.motet --scene kitchen --driver mujoco --seed 7 --speed max --record run").check(
         0,
-        &["out:✓ tidy: done", "err:['--robot', 'hsr', '--scene', 'kitchen', '--seed', '7', '--motet', "],
+        &[
+            "out:✓ tidy: done",
+            "err:['--robot', 'hsr', '--scene', 'kitchen', '--seed', '7', '--profile', 'typical', '--motet', ",
+        ],
     );
     place.run("replay run").check(0, &["out:identical"]);
     // What is real, what people answer and what goes wrong goes on to it; the names in it are checked before.
@@ -102,8 +105,8 @@ fn physics_gets_the_robot_the_scene_and_the_seed_of_the_run() {
         "run good.motet --scene kitchen --driver mujoco --speed max --world lab --answers yes.json --faults";
     place.run(&format!("{line} faults.json")).check(
         0,
-        &["err:'--scene', 'lab', '--seed', '0', '--told', 'kitchen', '--faults', 'faults.json', \
-             '--answers-file', 'yes.json'"],
+        &["err:'--scene', 'lab', '--seed', '0', '--told', 'kitchen', '--profile', 'typical', '--faults', \
+             'faults.json', '--answers-file', 'yes.json'"],
     );
     place.run(&format!("{line} odd.json")).check(2, &["err:fly"]);
     // How the hand holds a thing at the start is told, too.

@@ -3,6 +3,9 @@
 use crate::support::{BAD, GOOD, Place};
 use serde_json::Value;
 
+/// The built-in scene.
+const KITCHEN: &str = include_str!("../../../robots/scenes/kitchen.json");
+
 fn place(name: &str) -> Place {
     Place::new(name)
         .file("good.motet", GOOD)
@@ -174,4 +177,38 @@ fn stops_on_interrupt() {
     let rest: Vec<_> = stdout.lines().map_while(Result::ok).collect();
     assert_eq!(child.wait().unwrap().code(), Some(130));
     assert!(rest.join("\n").contains("interrupted"), "{rest:?}");
+}
+
+/// The robot knows the kitchen as it was told, and the real one differs.
+#[test]
+fn world_differs_from_the_scene_that_the_robot_knows() {
+    let told: Value = serde_json::from_str(KITCHEN).unwrap();
+    let real = |id: &str, key: &str, value: Value| {
+        let mut scene = told.clone();
+        let entities = scene["entities"].as_array_mut().unwrap();
+        let entity = entities.iter_mut().find(|entity| entity["id"] == id).unwrap();
+        if key == "on" {
+            entity.as_object_mut().unwrap().remove("pose");
+        }
+        entity[key] = value;
+        scene.to_string()
+    };
+    let place = Place::new("run_world")
+        .file("shelf.json", real("coke", "on", "shelf".into()))
+        .file("locked.json", real("fridge_1", "locked", true.into()))
+        .file("state.json", r#"{"open(fridge_1)": true}"#)
+        .file("is_open.motet", "policy p for hsr {\n    go(fridge_1)\n    if open(fridge_1) { say(\"yes\") }\n}\n")
+        .file(
+            "find.motet",
+            "policy find for hsr achieves holding(coke) {\n    search(\"coke\", counter)\n    pick(coke)\n}\n",
+        )
+        .file("open.motet", "policy opens for hsr achieves open(fridge_1) {\n    go(fridge_1)\n    open(fridge_1)\n}\n");
+    let flags = "--scene kitchen --profile ideal --speed max";
+    place.run(&format!("run find.motet {flags}")).check(0, &["out:✓ find: done"]);
+    let (failed, refused) = ("out:failed with `not_found`", "out:the refrigerator is locked");
+    place.run(&format!("run find.motet {flags} --world shelf.json")).check(1, &[failed]);
+    place.run(&format!("run open.motet {flags} --world locked.json")).check(1, &[refused]);
+    // The state holds in both.
+    let said = "out:▶ say(\"yes\")";
+    place.run(&format!("run is_open.motet {flags} --world shelf.json --state state.json")).check(0, &[said]);
 }

@@ -81,7 +81,7 @@ impl Sim {
         let answers = options.script.answers.iter().chain(&options.faults.answers).cloned();
         let mut belief = SimWorld::new(robot, scene, &options);
         let world = match &options.world {
-            Some(real) => SimWorld::new(robot, real, &options),
+            Some(real) => SimWorld::new(robot, real, &options.beside_scene(robot, scene)),
             None => belief.displaced(&options.profile.room, options.seed),
         };
         belief.base = world.base;
@@ -346,6 +346,20 @@ impl SimOptions {
             }
         }
         self
+    }
+
+    /// The same options without the facts that the scene says by itself: in a room that differs from the scene,
+    /// these are what the robot believes, and only a state that was given beside the scene holds in both.
+    fn beside_scene(&self, robot: &Robot, scene: &Scene) -> Self {
+        let mut options = Self { initial_facts: InitialFacts::new(), ..self.clone() };
+        let told = SimWorld::new(robot, scene, &options);
+        let is_beside = |((fluent, args), holds): &(&(SmolStr, Vec<SmolStr>), &bool)| {
+            let args: Vec<&str> = args.iter().map(SmolStr::as_str).collect();
+            told.fact(fluent, &args, &options.initial_facts) != Some(**holds)
+        };
+        let beside: Vec<_> = self.initial_facts.iter().filter(is_beside).collect();
+        options.initial_facts = beside.into_iter().map(|(fact, holds)| (fact.clone(), *holds)).collect();
+        options
     }
 }
 

@@ -6,7 +6,7 @@ use motet_planner::Builtin;
 use motet_planner::dialogue::{
     Conversation, DialogueObserver, DialogueSetup, Kind, NoOperator, OnInstruction, Outcome, Person, Problem,
 };
-use motet_robots::scene::{Entity, Placement};
+use motet_robots::scene::{Entity, EntityShape, Placement};
 use motet_runtime::memory::Memory;
 use motet_runtime::{Effect, EngineSettings, Pattern, Query, RunControl, RunEnd, Time, Truth};
 use motet_sim::{Faults, Sim, SimOptions};
@@ -510,6 +510,29 @@ fn conversation_looks_where_it_does_not_know() {
         let (outcome, _, lines) = carried_out(&mut talk, &mut sim, "where is the coke?", &[]);
         assert_eq!((outcome, lines.policies), (Outcome::Done, 0), "{:?}", lines.answers);
     }
+}
+
+#[test]
+fn conversation_knows_where_it_saw_a_thing_that_nobody_told_of() {
+    let setting = setting("hsr");
+    let mut world = setting.scene.clone();
+    let stapler = Entity {
+        kind: "Object".into(),
+        class: "stapler".into(),
+        names: vec!["blue stapler".into()],
+        shape: Some(EntityShape::Box([0.12, 0.04, 0.06])),
+        on: Some("counter".into()),
+        fixed: false,
+        ..Entity::place("stapler".into(), Placement { xyz: [0.8, -2.0, 0.93], rpy: [0.0; 3] })
+    };
+    world.entities.insert("stapler".into(), stapler);
+    let options = SimOptions { world: Some(world), ..SimOptions::default() };
+    let mut sim = Sim::new(&setting.robot, &setting.scene, options);
+    let mut talk = Conversation::new(&setting);
+    carried_out(&mut talk, &mut sim, "go to the counter", &[]);
+    let (outcome, _, lines) = carried_out(&mut talk, &mut sim, "where is the stapler?", &[]);
+    assert_eq!((outcome, lines.policies), (Outcome::Done, 0));
+    assert_eq!(lines.answers, [Some("The blue stapler is on the kitchen counter.".to_owned())]);
 }
 
 #[test]

@@ -333,7 +333,7 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
     /// Policy that turns by some degrees, if any, and looks for an object there. `None` if it does not pass
     /// the check.
     fn looking(&self, degrees: Option<i32>, thing: &SmolStr, scene: &Scene) -> Option<PlannedRequest> {
-        let name = self.talk.setting.scene.entities.get(thing).map(motet_requests::called)?;
+        let name = scene.entities.get(thing).map(motet_requests::called)?;
         let robot = print::identifier(&self.talk.setting.robot.name);
         let turn = degrees.map(|degrees| format!("{}({degrees} deg) ", primitives::TURN)).unwrap_or_default();
         let detect = format!("{}({})", primitives::DETECT, quoted(&name));

@@ -66,7 +66,7 @@ impl Conversation<'_> {
         if question.topic != Topic::View {
             return self.known_answer(question, &self.known);
         }
-        let scene = &self.setting.scene;
+        let scene = &self.known.seen_scene(&self.setting.scene);
         let mut seen: Vec<String> = Vec::new();
         for one in driver.detections(now) {
             let name = match &one.entity {
@@ -108,7 +108,7 @@ impl Conversation<'_> {
     /// Request whose run may answer a question; `None` if no look helps.
     fn look_request(&self, question: &RoomQuestion) -> Option<String> {
         let thing = question.things.first()?;
-        let name = &self.setting.scene.called(thing);
+        let name = &self.known.seen_scene(&self.setting.scene).called(thing);
         match question.topic {
             Topic::Location | Topic::Placed => Some(format!("find the {name}")),
             Topic::Open | Topic::Closed => Some(format!("go to the {name}")),
@@ -120,8 +120,8 @@ impl Conversation<'_> {
     /// Answer after a look that found the thing, where no support is known.
     fn found_here(&self, question: &RoomQuestion) -> Option<String> {
         let thing = question.things.first().filter(|_| question.topic == Topic::Location)?;
-        let scene = &self.setting.scene;
-        let at = self.known.standing(scene);
+        let scene = &self.known.seen_scene(&self.setting.scene);
+        let at = self.known.standing(scene).filter(|place| place != thing);
         let at = at.map_or_else(String::new, |place| format!(", at {}", the(scene, &place)));
         Some(format!("{} is here{at}.", capital(&the(scene, thing))))
     }
@@ -138,7 +138,7 @@ impl Conversation<'_> {
 
     /// Answer from what is known. `None` if that does not say.
     pub(super) fn known_answer(&self, question: &RoomQuestion, known: &Knowledge) -> Option<String> {
-        let scene = &self.setting.scene;
+        let scene = &known.seen_scene(&self.setting.scene);
         let things = &question.things;
         let place_of = |id: &SmolStr| {
             let place = known.places(scene).into_iter().find(|one| one.thing == *id);
@@ -233,7 +233,7 @@ impl Conversation<'_> {
 
     /// Location of an entity as a sentence, where it is known.
     fn located(&self, id: &SmolStr, known: &Knowledge) -> Option<String> {
-        let scene = &self.setting.scene;
+        let scene = &known.seen_scene(&self.setting.scene);
         let name = capital(&the(scene, id));
         if known.holding(scene).as_ref() == Some(id) {
             return Some(format!("I hold {}.", the(scene, id)));
@@ -253,7 +253,8 @@ impl Conversation<'_> {
 
     /// Steps that were carried out, in words.
     fn history(&self) -> String {
-        let situation = RequestContext::new(&self.setting.scene);
+        let scene = self.known.seen_scene(&self.setting.scene);
+        let situation = RequestContext::new(&scene);
         let mut steps = Vec::new();
         for entry in self.memory.entries() {
             let MemoryEvent::Step { call, ended, .. } = &entry.what else { continue };
