@@ -243,6 +243,15 @@ fn driver_that_misbehaves_is_named_and_stopped_safely() {
             "the driver said more than 2000 `observed` that are not watched in a second",
         ),
         (
+            "detects",
+            format!(
+                "{stop}    seen = [{{'label': 'cup', 'pose': {{'xyz': [i, 0, 1], 'quaternion': [0, 0, 0, 1]}}, \
+                 'extent': [0.1, 0.1, 0.1], 'confidence': 1}} for i in range(500)]\n    while m['method'] == \
+                 'start': say({{'method': 'detected', 'params': {{'detections': seen}}}})\n"
+            ),
+            "the driver said more than 5000 things `detected` in a second",
+        ),
+        (
             "keeps silent",
             format!("{stop}    if m['method'] == 'ping': say({{'id': m['id'], 'result': {{}}}})\n"),
             "does not say whether goal #1 runs",
@@ -291,6 +300,13 @@ fn driver_that_dies_or_says_nothing_more_ends_the_run_soon() {
     ran.check(3, &["out:confirmed neither a cancel nor a safe stop; the robot may still move"]);
     ran.check(3, &["out:it was at `go(kitchen_table)`"]);
     assert!(secs < 12.0, "{secs}");
+    // One that greets well each time, and dies as soon as it is asked to watch.
+    let dies = odd(
+        "    if m['method'] == 'watch': sys.exit(0)\n    if 'id' in m: say({'id': m['id'], 'result': {}})\n",
+    );
+    let (ran, secs) = ends("watch", "waits.motet", dies);
+    ran.check(3, &["out:failed with `timeout`"]);
+    assert!(secs < 8.0, "{secs} s: {ran:#?}");
     // Nothing moves while it is waited for: it is called again, and is as silent. It falls silent where it
     // was asked for what is watched, or has answered that.
     for (name, answers, secs_in) in [("falls", 1, 5.0..10.0), ("rests", 2, 3.0..7.5)] {

@@ -224,21 +224,72 @@ impl ApiKey {
         format!("{prefix}{}", self.0)
     }
 
-    /// A text of the server, which may quote what it was sent, without the key: as it is, and as JSON
-    /// writes it.
+    /// A text of the server, which may quote what it was sent, without the key, however JSON spells it.
     pub(crate) fn cut_from(&self, text: &str) -> String {
-        let cut = text.replace(&self.0, "[key]");
-        let written = serde_json::Value::from(self.0.as_str()).to_string();
-        let written = written.trim_matches('"');
-        if written == self.0 || written.is_empty() { cut } else { cut.replace(written, "[key]") }
+        let (mut cut, mut rest) = (String::with_capacity(text.len()), text);
+        while let Some(first) = rest.chars().next() {
+            match self.spelt_in(rest) {
+                KeySpelling::Whole(length) => {
+                    cut.push_str("[key]");
+                    rest = rest.get(length..).unwrap_or_default();
+                }
+                KeySpelling::Begun | KeySpelling::Other => {
+                    cut.push(first);
+                    rest = rest.get(first.len_utf8()..).unwrap_or_default();
+                }
+            }
+        }
+        cut
     }
 
     /// Offset at which a text ends with the beginning of the key; its length if it does not.
     pub(crate) fn begun_at(&self, text: &str) -> usize {
-        let longest = self.0.len().min(text.len());
-        let begins = |start: &usize| text.get(*start..).is_some_and(|end| self.0.starts_with(end));
-        (text.len() - longest..text.len()).find(begins).unwrap_or(text.len())
+        // Each character may be spelt as `\uXXXX`.
+        let longest = 6 * self.0.len();
+        let mut ends = text.char_indices().map(|(at, _)| at).filter(|at| text.len() - at <= longest);
+        let begins =
+            |at: &usize| matches!(text.get(*at..).map(|end| self.spelt_in(end)), Some(KeySpelling::Begun));
+        ends.find(begins).unwrap_or(text.len())
     }
+
+    /// Compares the beginning of a text with the key. Each character stands for itself or is escaped as in JSON.
+    fn spelt_in(&self, text: &str) -> KeySpelling {
+        let mut rest = text;
+        for wanted in self.0.chars() {
+            if rest.is_empty() {
+                return KeySpelling::Begun;
+            }
+            if let Some(after) = rest.strip_prefix(wanted) {
+                rest = after;
+                continue;
+            }
+            let Some(escape) = rest.strip_prefix('\\') else { return KeySpelling::Other };
+            let digits = escape.strip_prefix('u').map(|digits| digits.get(..4.min(digits.len())));
+            let (is_same, length) = match (digits, escape.chars().next()) {
+                (_, None) => return KeySpelling::Begun,
+                (Some(Some(digits)), _) if digits.len() < 4 => return KeySpelling::Begun,
+                (Some(digits), _) => {
+                    let code = digits.and_then(|digits| u32::from_str_radix(digits, 16).ok());
+                    (code == Some(u32::from(wanted)), 5)
+                }
+                (None, Some(other)) => (other == wanted, other.len_utf8()),
+            };
+            match escape.get(length..) {
+                Some(after) if is_same => rest = after,
+                Some(_) | None => return KeySpelling::Other,
+            }
+        }
+        KeySpelling::Whole(text.len() - rest.len())
+    }
+}
+
+/// Result of comparing a text with a key.
+enum KeySpelling {
+    /// The key stands there, in so many bytes.
+    Whole(usize),
+    /// The text ends within what may be the key.
+    Begun,
+    Other,
 }
 
 impl fmt::Debug for ApiKey {

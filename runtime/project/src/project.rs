@@ -420,12 +420,14 @@ impl ProjectSession {
     #[must_use]
     pub fn told_facts(&self) -> Vec<(Query, Truth)> {
         let without = self.session.with_scene(self.scene.as_ref(), None);
-        let facts = |session: &Session| session.initial_facts().map(told_fact).collect::<Vec<_>>();
+        let keyed = |fact: (Query, Truth)| (format!("{:?}", fact.0), fact);
+        let facts =
+            |session: &Session| session.initial_facts().map(told_fact).map(keyed).collect::<IndexMap<_, _>>();
         let (with, without) = (facts(&self.session), facts(&without));
-        let is_said = |query: &Query, facts: &[(Query, Truth)]| facts.iter().any(|(known, _)| known == query);
-        let unknown = without.iter().filter(|(query, _)| !is_said(query, &with));
-        let unknown: Vec<_> = unknown.map(|(query, _)| (query.clone(), Truth::Unknown)).collect();
-        unknown.into_iter().chain(with.into_iter().filter(|fact| !without.contains(fact))).collect()
+        let unknown = without.iter().filter(|(key, _)| !with.contains_key(*key));
+        let unknown = unknown.map(|(_, (query, _))| (query.clone(), Truth::Unknown));
+        let told = with.iter().filter(|(key, fact)| without.get(*key) != Some(fact));
+        unknown.chain(told.map(|(_, fact)| fact.clone())).collect()
     }
 
     /// Sources of the project with a document in its place, [`DOCUMENT`]: rendering diagnostics needs them.

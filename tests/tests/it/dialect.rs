@@ -126,7 +126,9 @@ fn through_the_dialect(steps: &str, scene: &motet_robots::scene::Scene) -> (Stri
     assert!(parsed.diagnostics.is_empty(), "{text}: {:?}", parsed.diagnostics);
     let (list, left_out) = actions::write(parsed.file.policies().next().unwrap(), scene);
     let (session, _) = setup::session(Some(&robot), Some(scene), &mut Sources::default());
-    let read = match actions::read(&list, "p", &session, Some(&robot), &RequestContext::new(scene)) {
+    let said = Exchange { user: "Well?".into(), robot: list.clone(), ..Exchange::default() };
+    let heard = exchange::read(&said.write()).unwrap().remove(0).robot;
+    let read = match actions::read(&heard, "p", &session, Some(&robot), &RequestContext::new(scene)) {
         Ok(read) => read.policy,
         Err(NoPolicy::Empty) => String::new(),
         Err(why) => panic!("{list:?} of {text}: {why}"),
@@ -195,6 +197,7 @@ const PIECES: &[&str] = &[
     "# Request",
     "```",
     "back",
+    " <robot> go to ",
     "open fridge_1",
     ", open fridge_1",
     "\u{1}3",

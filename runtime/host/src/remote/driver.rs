@@ -61,9 +61,10 @@ pub struct RemoteDriver {
     breaches: u32,
     heard_at: Instant,
     rate: LineRate,
-    /// Feedback and reported facts of this second.
+    /// Feedback, reported facts and detections of this second.
     feedback: LineRate,
     facts: LineRate,
+    detections: LineRate,
     said_at: Instant,
     /// It was asked for more than a sign of life since it said something.
     is_asked: bool,
@@ -145,6 +146,7 @@ impl RemoteDriver {
             rate: LineRate::default(),
             feedback: LineRate::default(),
             facts: LineRate::default(),
+            detections: LineRate::default(),
             said_at: Instant::now(),
             is_asked: false,
             restarts: patience.restarts,
@@ -320,6 +322,7 @@ impl RemoteDriver {
         let is_reached = self.reach();
         if !is_reached && self.restarts == 0 {
             self.goals.stopping.clear();
+            self.watches.clear();
             self.report(DriverEvent::DriverGone);
         } else if !is_reached && self.route.is_port() {
             // Whoever listens there may be starting anew.

@@ -13,6 +13,7 @@ use smol_str::SmolStr;
 use thiserror::Error;
 
 use super::action_list::{NUMBERED, items};
+use super::exchange::untagged;
 use crate::planned::quoted;
 
 /// A policy from a list of actions, with the interpretations that the reader made.
@@ -511,7 +512,8 @@ impl Writer<'_> {
     /// Adds an action. A list has no quotes: what would read as several actions, as a part of the next one,
     /// or as another action, is left out.
     fn push(&mut self, action: String, meant: Option<String>) {
-        let words = action.split_whitespace().collect::<Vec<_>>().join(" ");
+        // As an exchange has it.
+        let words = untagged(&action.split_whitespace().collect::<Vec<_>>().join(" "));
         let mut read = items(&format!("{words}, {END}"), self.scene);
         if read.first().map(std::slice::from_ref) != Some(items(&words, self.scene).as_slice()) {
             // At the end of a list it reads otherwise.

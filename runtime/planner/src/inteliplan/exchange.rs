@@ -141,7 +141,7 @@ fn next_tag(text: &str) -> Option<(&str, usize, bool, &str)> {
 }
 
 /// Text without the beginnings of tags: a name in it can begin no part.
-fn untagged(text: &str) -> String {
+pub(super) fn untagged(text: &str) -> String {
     let (mut whole, mut rest) = (String::new(), text);
     while let Some((before, _, _, after)) = next_tag(rest) {
         let tag = rest.strip_prefix(before).and_then(|tag| tag.strip_suffix(after)).unwrap_or_default();

@@ -2,9 +2,10 @@
 
 use super::super::link::LinkError;
 use super::super::protocol::{
-    DriverCall, DriverMessage, DriverReport, EmptyParams, FeedbackParams, GoalParams, MAX_FACTS_A_SECOND,
-    MAX_FEEDBACK, MAX_FEEDBACK_A_SECOND, MAX_KIND_BYTES, MAX_LINES_A_SECOND, MAX_WAITING, QueryParams,
-    QueryResult, REFUSED, RefusedData, RpcError, SAYINGS, hear, heard,
+    DriverCall, DriverMessage, DriverReport, EmptyParams, FeedbackParams, GoalParams,
+    MAX_DETECTIONS_A_SECOND, MAX_FACTS_A_SECOND, MAX_FEEDBACK, MAX_FEEDBACK_A_SECOND, MAX_KIND_BYTES,
+    MAX_LINES_A_SECOND, MAX_WAITING, QueryParams, QueryResult, REFUSED, RefusedData, RpcError, SAYINGS, hear,
+    heard,
 };
 use super::{LineFrom, RemoteDriver, Waiting, failed, nonsense};
 use motet_runtime::{Answer, DriverEvent, FailureReport, GoalId, OWN_MOTION, Outcome};
@@ -133,6 +134,15 @@ impl RemoteDriver {
                 let moved = moved.moved(self.time.now(), self.time.is_own());
                 moved.into_iter().for_each(|moved| self.telemetry.push_moved(moved));
             }
+            DriverReport::Detected(seen)
+                if self.detections.exceeds_by(
+                    seen.detections.len(),
+                    MAX_DETECTIONS_A_SECOND,
+                    self.heard_at,
+                ) =>
+            {
+                self.broke(&LinkError::Hasty(MAX_DETECTIONS_A_SECOND, "things `detected`"));
+            }
             DriverReport::Detected(seen) => {
                 let seen = seen.seen(self.time.now());
                 self.telemetry.push_detected(seen);
@@ -231,8 +241,8 @@ impl RemoteDriver {
     pub(super) fn tend(&mut self) {
         if self.link.is_none() {
             // What may still move is to be stopped, and what is watched to be seen, whoever has to be called.
-            let is_watched = !self.watches.is_empty() && self.restarts > 0;
-            if (is_watched || !self.goals.stopping.is_empty()) && self.call_at <= Instant::now() {
+            let is_needed = !self.watches.is_empty() || !self.goals.stopping.is_empty();
+            if is_needed && self.call_at <= Instant::now() {
                 self.reach_to_stop();
             }
             return;

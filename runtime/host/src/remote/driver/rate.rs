@@ -12,11 +12,16 @@ pub(super) struct LineRate {
 impl LineRate {
     /// Counts a line that was heard now. True if there were more than `most` in this second.
     pub(super) fn exceeds(&mut self, most: u32, now: Instant) -> bool {
+        self.exceeds_by(1, most, now)
+    }
+
+    /// Counts several that were heard now. True if there were more than `most` in this second.
+    pub(super) fn exceeds_by(&mut self, heard: usize, most: u32, now: Instant) -> bool {
         let is_over = |begun: Instant| now.saturating_duration_since(begun) >= Duration::from_secs(1);
         if self.begun.is_none_or(is_over) {
             (self.begun, self.lines) = (Some(now), 0);
         }
-        self.lines = self.lines.saturating_add(1);
+        self.lines = self.lines.saturating_add(u32::try_from(heard).unwrap_or(u32::MAX));
         self.lines > most
     }
 }
