@@ -18,6 +18,7 @@ KITCHEN = ["--robot", "hsr", "--scene", "kitchen"]
 WAIT = "policy p { wait 1 s }\n"
 SCENE = '{"motet_scene":1,"robot":{"base":[0,0,0]},"entities":[%s]}'
 SEE = 'policy p { let m = detect("mug") say("hi") go(user) }\n'
+DOMAIN = "(define (domain d) (:requirements :typing) (:types t) (:predicates (p ?x - t)))"
 # By kind: the largest size in bytes, the files, with `%s` for the text, and the command.
 KINDS = {
     "json": (4_000_000, {"p.json": "%s"}, ["check", "p.json", *KITCHEN]),
@@ -33,6 +34,15 @@ KINDS = {
               ["check", "p.motet", *KITCHEN, "--state", "s.json"]),
     "card": (4_000_000, {"r/robot.toml": "%s", "p.motet": WAIT}, ["check", "p.motet", "--robot", "r"]),
     "request": (4_000, {}, ["plan", *KITCHEN, "--"]),
+    "room": (4_000_000, {"s.json": SCENE},
+             ["plan", "--robot", "hsr", "--scene", "s.json", "bring me the red mug"]),
+    "objects": (4_000_000, {"d.pddl": DOMAIN, "o.pddl": "(define (problem p) (:domain d) %s)"},
+                ["import", "pddl", "d.pddl", "o.pddl"]),
+    "urdf": (4_000_000, {"r.urdf": '<robot name="r">%s</robot>'}, ["robots", "add", "r.urdf", "--to", "r"]),
+    "tree": (4_000_000, {"t.xml": '<root BTCPP_format="4">%s</root>'}, ["import", "btcpp", "t.xml"]),
+    "faults": (4_000_000, {"f.json": '{"calls": [%s]}', "p.motet": SEE},
+               ["run", "p.motet", *KITCHEN, "--speed", "max", "--faults", "f.json"]),
+    "dialogue": (4_000_000, {"d.txt": "%s"}, ["dialog", "d.txt", *KITCHEN]),
 }
 # Most seconds and MB that the documents promise.
 PROMISED = {"reply": (0.5, 500), "request": (0.5, 500)}
@@ -106,7 +116,7 @@ def main():
             sizes = [os.path.getsize(path) for path in paths] or [len(arguments[-1].encode())]
             code, seconds, mb, last = run(motet, folder, arguments)
             most_seconds, most_mb = PROMISED.get(kind, (2, 500))
-            is_met = code in (0, 1, 2) and seconds <= most_seconds and mb <= most_mb
+            is_met = code in (0, 1, 2, 3) and seconds <= most_seconds and mb <= most_mb
             missed += not is_met
             mark = "" if is_met else " **!**"
             row = [name, f"{max(sizes):,}", f"{seconds:.2f}{mark}", mb, code, last[:80].replace("|", " ")]

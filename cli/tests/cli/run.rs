@@ -193,21 +193,21 @@ fn world_differs_from_the_scene_that_the_robot_knows() {
         entity[key] = value;
         scene.to_string()
     };
+    let policy = |achieves: &str, then: &str| {
+        format!("policy p for hsr {achieves} {{\n    go(fridge_1)\n    {then}\n}}\n")
+    };
     let place = Place::new("run_world")
         .file("shelf.json", real("coke", "on", "shelf".into()))
         .file("locked.json", real("fridge_1", "locked", true.into()))
         .file("state.json", r#"{"open(fridge_1)": true}"#)
-        .file("is_open.motet", "policy p for hsr {\n    go(fridge_1)\n    if open(fridge_1) { say(\"yes\") }\n}\n")
-        .file(
-            "find.motet",
-            "policy find for hsr achieves holding(coke) {\n    search(\"coke\", counter)\n    pick(coke)\n}\n",
-        )
-        .file("open.motet", "policy opens for hsr achieves open(fridge_1) {\n    go(fridge_1)\n    open(fridge_1)\n}\n");
+        .file("is_open.motet", policy("", "if open(fridge_1) { say(\"yes\") }"))
+        .file("find.motet", policy("achieves holding(coke)", "search(\"coke\", counter)\n    pick(coke)"))
+        .file("open.motet", policy("achieves open(fridge_1)", "open(fridge_1)"));
     let flags = "--scene kitchen --profile ideal --speed max";
-    place.run(&format!("run find.motet {flags}")).check(0, &["out:✓ find: done"]);
+    place.run(&format!("run find.motet {flags}")).check(0, &["out:✓ p: done"]);
     let (failed, refused) = ("out:failed with `not_found`", "out:the refrigerator is locked");
-    place.run(&format!("run find.motet {flags} --world shelf.json")).check(1, &[failed]);
-    place.run(&format!("run open.motet {flags} --world locked.json")).check(1, &[refused]);
+    place.run(&format!("run find.motet {flags} --world shelf.json")).check(3, &[failed]);
+    place.run(&format!("run open.motet {flags} --world locked.json")).check(3, &[refused]);
     // The state holds in both.
     let said = "out:▶ say(\"yes\")";
     place.run(&format!("run is_open.motet {flags} --world shelf.json --state state.json")).check(0, &[said]);

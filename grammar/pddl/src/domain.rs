@@ -142,15 +142,20 @@ pub(crate) fn read_problem(
     let (name, sections) = define(tree, "problem", diagnostics)?;
     let objects = domain.words.constants.clone();
     let mut problem = Problem { name, objects, init: Vec::new(), goal: Vec::new() };
+    let mut types: IndexMap<SmolStr, _> =
+        problem.objects.iter().map(|object| (object.name.clone(), object.ty.clone())).collect();
     // Objects may stand behind what speaks of them.
     for section in sections {
         if let Some((":objects", parts)) = section.form().map(|(head, parts)| (head.as_str(), parts)) {
             let found = typed::read(parts, ListItem::Names, diagnostics);
             typed::check(&found, &domain.words.types, diagnostics);
             for object in found {
-                match problem.objects.iter().find(|other| other.name == object.name) {
-                    None => problem.objects.push(object),
-                    Some(other) if other.ty == object.ty => {}
+                match types.get(&object.name) {
+                    None => {
+                        types.insert(object.name.clone(), object.ty.clone());
+                        problem.objects.push(object);
+                    }
+                    Some(ty) if *ty == object.ty => {}
                     Some(_) => {
                         let what = format!("the object `{}` is declared twice", object.name);
                         diagnostics.push(WrongName { span: object.span, what, help: None }.into());

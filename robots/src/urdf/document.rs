@@ -13,11 +13,20 @@ use super::diagnostics::{
 };
 use super::model::Pose;
 
-/// Greatest number of XML nodes (elements, texts, comments) of one description. The largest in use have some
-/// ten thousand.
-const MAX_NODES: u32 = 200_000;
+/// Greatest number of XML nodes (elements, texts, comments) of the description of a robot. The largest in use
+/// have some ten thousand.
+const MAX_NODES: u32 = 40_000;
+/// Greatest number of XML nodes of the models of an SDF.
+const MAX_SDF_NODES: u32 = 200_000;
 /// Greatest nesting depth; a URDF needs five levels, extensions some more.
 const MAX_DEPTH: usize = 64;
+
+const fn max_nodes(dialect: XmlDialect) -> u32 {
+    match dialect {
+        XmlDialect::Urdf | XmlDialect::Srdf => MAX_NODES,
+        XmlDialect::Sdf => MAX_SDF_NODES,
+    }
+}
 
 /// Parsed XML document.
 pub(crate) struct XmlDocument<'t> {
@@ -43,7 +52,8 @@ impl<'t> XmlDocument<'t> {
     ) -> Result<Self, Box<Diagnostic>> {
         let text = source.text.trim_start();
         let spans = XmlSpans { file, skipped: source.text.len() - text.len() };
-        let options = ParsingOptions { allow_dtd: false, nodes_limit: MAX_NODES, entity_resolver: None };
+        let options =
+            ParsingOptions { allow_dtd: false, nodes_limit: max_nodes(dialect), entity_resolver: None };
         let xml = match roxmltree::Document::parse_with_options(text, options) {
             Ok(xml) => xml,
             Err(problem) => return Err(Box::new(spans.not_xml(&problem, source, dialect))),
@@ -128,7 +138,7 @@ impl XmlSpans {
                 return LeftoverXacro { span, text: "xacro:".to_owned() }.into();
             }
             Error::NodesLimitReached => {
-                return TooMuch { span, what: "XML nodes", limit: MAX_NODES as usize }.into();
+                return TooMuch { span, what: "XML nodes", limit: max_nodes(dialect) as usize }.into();
             }
             Error::DtdDetected => "a document type declaration is not taken".to_owned(),
             other => other.to_string(),

@@ -252,7 +252,8 @@ impl ApiKey {
         ends.find(begins).unwrap_or(text.len())
     }
 
-    /// Compares the beginning of a text with the key. Each character stands for itself or is escaped as in JSON.
+    /// Compares the beginning of a text with the key. Each character stands for itself or is escaped as in
+    /// JSON.
     fn spelt_in(&self, text: &str) -> KeySpelling {
         let mut rest = text;
         for wanted in self.0.chars() {

@@ -238,16 +238,19 @@ fn describe_unknown(
         NameKind::Failure => ("failure", known.failures.iter().map(SmolStr::as_str).collect()),
         NameKind::Entity(_) => ("entity", known.entities.iter().map(|(name, _)| name.as_str()).collect()),
     };
-    let (line, column) = source.line_column(name.span.start);
+    // Counting lines takes the whole text: only for what is told.
+    let place = || {
+        let (line, column) = source.line_column(name.span.start);
+        format!("{}:{line}:{column}", source.name)
+    };
     if all.contains(&text) {
         let NameKind::Entity(wanted) = kind else { return None };
         let number = known.kinds.iter().position(|kind| kind.name == wanted)?;
         let (_, of) = known.entities.iter().find(|(name, _)| name == text)?;
         let found = &known.kinds.get(*of).filter(|_| !known.is_kind(*of, number))?.name;
-        let place = format!("{}:{line}:{column}", source.name);
-        return Some(format!("{place}: `{text}` is of the kind {found}; the kind must be {wanted}"));
+        return Some(format!("{}: `{text}` is of the kind {found}; the kind must be {wanted}", place()));
     }
     let near =
         suggest::closest(text, all).map_or_else(String::new, |near| format!(": did you mean `{near}`?"));
-    Some(format!("{}:{line}:{column}: there is no {what} `{text}`{near}", source.name))
+    Some(format!("{}: there is no {what} `{text}`{near}", place()))
 }

@@ -348,8 +348,8 @@ impl SimOptions {
         self
     }
 
-    /// The same options without the facts that the scene says by itself: in a room that differs from the scene,
-    /// these are what the robot believes, and only a state that was given beside the scene holds in both.
+    /// The same options without the facts that the scene says by itself: in a room that differs from the
+    /// scene, these are what the robot believes, and only a state given beside the scene holds in both.
     fn beside_scene(&self, robot: &Robot, scene: &Scene) -> Self {
         let mut options = Self { initial_facts: InitialFacts::new(), ..self.clone() };
         let told = SimWorld::new(robot, scene, &options);

@@ -235,6 +235,16 @@ proptest! {
 }
 
 #[test]
+fn dialect_has_limits() {
+    let long = format!("go to counter, {}", "go ".repeat(2_000));
+    let Err(NoPolicy::Unknown { number: 2, action }) = read(&long) else { panic!("it is read") };
+    assert_eq!(action.len(), 40);
+    let many = "<user> bring me the coke\n<robot> go to counter\n".repeat(exchange::MAX_EXCHANGES + 1);
+    let line = 2 * exchange::MAX_EXCHANGES + 1;
+    assert_eq!(exchange::read(&many), Err(exchange::NoDialogue::TooMany { line }));
+}
+
+#[test]
 fn dialect_what_is_read_otherwise_is_said() {
     let warnings = read("go to table, pick up coke").unwrap().warnings.join("\n");
     assert!(warnings.contains("read `pick up` as `pick`"), "{warnings}");

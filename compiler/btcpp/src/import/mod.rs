@@ -11,6 +11,8 @@ mod value;
 
 pub use document::MAX_XML_NODES;
 
+use std::collections::BTreeSet;
+
 use motet_syntax::ast::{Block, Expr, File, Item, MAX_NESTING, Name, Policy, Step};
 use motet_syntax::{Diagnostic, FileId, Severity, Source, Span};
 use roxmltree::Node;
@@ -113,10 +115,11 @@ impl<'a, 't> Reader<'_, 'a, 't> {
             self.found.push(NotTree { span, problem }.into());
             return None;
         }
+        let mut known = BTreeSet::new();
         for part in elements(root) {
             let span = self.places.tag(part);
             match (part.tag_name().name(), part.attribute("ID")) {
-                ("BehaviorTree", Some(id)) if self.trees.iter().any(|(known, _)| *known == id) => {
+                ("BehaviorTree", Some(id)) if !known.insert(id) => {
                     self.found.push(NotTree { span, problem: format!("there are two trees `{id}`") }.into());
                 }
                 ("BehaviorTree", id) => self.trees.push((id.unwrap_or("tree"), part)),

@@ -466,8 +466,8 @@ pub(crate) const MAX_FEEDBACK_A_SECOND: u32 = 200;
 /// The most facts that a driver may report in a second of the wall clock without being asked to watch them.
 /// One that reports more counts as gone: a fact that was dropped would be believed as it was before.
 pub(crate) const MAX_FACTS_A_SECOND: u32 = 2_000;
-/// The most things that a driver may report as `detected` in a second of the wall clock. One that reports more
-/// counts as gone: to take all of them into the scene would hold the run up.
+/// The most things that a driver may report as `detected` in a second of the wall clock. One that reports
+/// more counts as gone: to take all of them into the scene would hold the run up.
 pub(crate) const MAX_DETECTIONS_A_SECOND: u32 = 5_000;
 /// The most promises that a driver may break in a run before it counts as gone.
 pub(crate) const MAX_BREACHES: u32 = 1_000;

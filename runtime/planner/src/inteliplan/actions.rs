@@ -84,6 +84,11 @@ const ANYWHERE: &[&str] = &[kinds::SURFACE, kinds::CONTAINER, kinds::PLACE, kind
 const BETWEEN: &[&str] =
     &[" on top of ", " onto ", " into ", " inside ", " on ", " in ", " at ", " to ", ", "];
 
+/// The longest action that is read, in bytes.
+const MAX_ACTION_BYTES: usize = 4_096;
+/// Length of a quotation of a longer one, in characters.
+const QUOTED: usize = 40;
+
 /// Reads a list of actions as a policy for a robot in a context. O(actions · objects).
 ///
 /// ```
@@ -149,6 +154,10 @@ impl<'a> Reader<'a> {
     }
 
     fn action(&mut self, number: usize, item: &str) -> Result<String, NoPolicy> {
+        if item.len() > MAX_ACTION_BYTES {
+            let action = item.chars().take(QUOTED).collect();
+            return Err(NoPolicy::Unknown { number, action });
+        }
         // `pick(coke)` is `pick coke`.
         let plain = item.replace(['(', ')', '_'], " ");
         let plain = plain.split_whitespace().collect::<Vec<_>>().join(" ").replace(" ,", ",");

@@ -39,6 +39,12 @@ pub enum NoDialogue {
         line: usize,
         tag: &'static str,
     },
+    /// More exchanges than [`MAX_EXCHANGES`].
+    #[error("line {line}: there are more than {MAX_EXCHANGES} exchanges; split the text into several")]
+    TooMany {
+        /// Line of the first one that is too many, from 1.
+        line: usize,
+    },
     /// The text has no parts.
     #[error("there is no tag in it: a dialogue has `<user>` and `<robot>`")]
     Empty,
@@ -46,6 +52,8 @@ pub enum NoDialogue {
 
 /// The tags, in writing order.
 const TAGS: [&str; 5] = ["history", "user", "vision", "feasibility", "robot"];
+/// The most exchanges of a text.
+pub const MAX_EXCHANGES: usize = 5_000;
 /// Length of a quotation in a message, in characters.
 const QUOTED: usize = 40;
 
@@ -63,7 +71,7 @@ const QUOTED: usize = 40;
 ///
 /// # Errors
 ///
-/// Text before the first tag, a repeated part, or no part at all.
+/// Text before the first tag, a repeated part, too many exchanges, or no part at all.
 pub fn read(text: &str) -> Result<Vec<Exchange>, NoDialogue> {
     let mut exchanges: Vec<Exchange> = Vec::new();
     let mut found = [false; TAGS.len()];
@@ -89,6 +97,9 @@ pub fn read(text: &str) -> Result<Vec<Exchange>, NoDialogue> {
             || (tag == 1 && was(1))
             || (tag == 1 && was(4));
         if begins {
+            if exchanges.len() == MAX_EXCHANGES {
+                return Err(NoDialogue::TooMany { line: line_of(rest) });
+            }
             exchanges.push(Exchange::default());
             found = [false; TAGS.len()];
         } else if was(tag) {
