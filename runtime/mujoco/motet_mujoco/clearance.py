@@ -1,8 +1,10 @@
 """Clearance of configurations in the room as the robot believes it to be: may a path cut a corner there?
 
 The witness of a motion is free of collisions along its legs. Between two legs the robot may go by their corner only
-where this check finds nothing within the distances that the witness keeps.
+where this check finds nothing within the distances that the witness keeps, and no two parts of the robot that touch.
 """
+
+import functools
 
 import mujoco
 import numpy as np
@@ -13,6 +15,8 @@ from .motion import set_targets
 KEEPS = {"base": 0.04, "arm": 0.01}
 # Distance in m by which what is too near anyway may come nearer.
 NEARER = 0.001
+# Distance in m that parts of the robot keep from each other.
+OWN = 0.002
 
 
 class Clearance:
@@ -58,12 +62,9 @@ class Clearance:
             turned = np.zeros(4)
             mujoco.mju_mat2Quat(turned, np.ascontiguousarray(rotation @ self.grip[1]).ravel())
             data.qpos[at : at + 3], data.qpos[at + 3 : at + 7] = place + rotation @ self.grip[0], turned
-        before, flags = mj.geom_margin.copy(), mj.opt.enableflags
-        mj.geom_margin[:], mj.opt.enableflags = np.maximum(before, self.margins), 0
-        mujoco.mj_fwdPosition(mj, data)
-        mj.geom_margin[:], mj.opt.enableflags = before, flags
+        find_contacts(self.model, data, np.maximum(mj.geom_margin, self.margins))
         owner, mine = self.model.geom_owner, ("robot", self.held)
-        found = {}
+        found = {bodies: gap for bodies, gap in own_contacts(self.model, data) if bodies not in together(self.model)}
         for at in range(data.ncon):
             one, other = data.contact[at].geom
             pair = (owner[one], owner[other])
@@ -73,6 +74,15 @@ class Clearance:
                 found[bodies] = min(found.get(bodies, np.inf), data.contact[at].dist)
         return found
 
+    def touches_itself(self, target):
+        """True if parts of the robot are too near to each other at targets that are not so at the start."""
+        before, after = (self.own(one) for one in (self.start[self.model.control_qpos], target))
+        return not after <= before
+
+    def own(self, target):
+        """Pairs of bodies of the robot that are too near to each other at targets."""
+        return {bodies for bodies in self.near(target) if all(self.model.owner[one] == "robot" for one in bodies)}
+
     def is_free(self, start, corner, targets):
         """True if at all targets nothing is too near, or at least no nearer than at the start or the corner
         anyway."""
@@ -81,6 +91,50 @@ class Clearance:
             permitted[bodies] = min(permitted.get(bodies, np.inf), gap)
         return all(gap >= permitted.get(bodies, np.inf) - NEARER
                    for target in targets for bodies, gap in self.near(target).items())
+
+
+def find_contacts(model, data, margins):
+    """Finds the contacts of a configuration within margins. In the world the robot does not touch itself; here it
+    does."""
+    mj, (own, bodies), flags = model.mj, parts(model), model.mj.opt.enableflags
+    fields = mj.geom_margin, mj.geom_conaffinity, mj.body_conaffinity
+    before = [field.copy() for field in fields]
+    mj.geom_margin[:], mj.opt.enableflags = margins, 0
+    mj.geom_conaffinity[own] |= mj.geom_contype[own]
+    mj.body_conaffinity[bodies] |= mj.body_contype[bodies]
+    mujoco.mj_fwdPosition(mj, data)
+    for field, was in zip(fields, before):
+        field[:] = was
+    mj.opt.enableflags = flags
+
+
+def own_contacts(model, data):
+    """Pairs of bodies of the robot that are too near to each other, with their distances in m. Fingers may close."""
+    for at in range(data.ncon):
+        geoms, gap = data.contact[at].geom, data.contact[at].dist
+        is_own = all(model.geom_owner[geom] == "robot" for geom in geoms)
+        if is_own and gap < OWN and not all(geom in model.hand_geoms for geom in geoms):
+            yield tuple(sorted(int(body) for body in model.mj.geom_bodyid[geoms])), gap
+
+
+@functools.lru_cache(maxsize=4)
+def parts(model):
+    """Geoms of the robot, and their bodies."""
+    own = [at for at, owner in enumerate(model.geom_owner) if owner == "robot"]
+    return own, sorted({int(body) for body in model.mj.geom_bodyid[own]})
+
+
+@functools.lru_cache(maxsize=4)
+def together(model):
+    """Pairs of bodies of the robot that touch at the start or at home: their shapes overlap there, not the parts."""
+    data, found = mujoco.MjData(model.mj), set()
+    for target in (model.mj.key_ctrl[model.mj.key("start").id], model.posture("home"), model.posture("start")):
+        if target is not None:
+            mujoco.mj_resetDataKeyframe(model.mj, data, model.mj.key("start").id)
+            set_targets(model, data, data.qpos.copy(), target)
+            find_contacts(model, data, model.mj.geom_margin.copy())
+            found.update(bodies for bodies, _ in own_contacts(model, data))
+    return found
 
 
 def matrix(quaternion):

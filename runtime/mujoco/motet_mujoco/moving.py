@@ -138,13 +138,14 @@ class Mover:
             yield
 
     def straight(self, way, share=0.8):
-        """Moves the hand along a short straight line in the map, as far as it goes."""
-        world = self.world
+        """Moves the hand along a short straight line in the map, as far as it goes and the robot does not touch
+        itself."""
+        world, clearance = self.world, Clearance(self.world, self.beliefs)
         place, rotation = world.tip()
         target = self.goal
         for step in range(1, 5):
             further = world.reacher.solve(world.data.qpos, target, place + way * step / 4.0, rotation)
-            if further is None:
+            if further is None or clearance.touches_itself(further):
                 break
             target = further
         target = target.copy()
@@ -221,15 +222,12 @@ class Mover:
             if (yield from self.home_again(begun, motion, watch)):
                 return
             strokes = self.path(points[free - 1 :], motion.speed).strokes
-        if len(strokes) > 1 and self.world.now + self.smooth(Path(strokes)).end > motion.until - SPARE:
-            # There is no time to go back all the way that the base came.
+        while len(strokes) > 1 and self.world.now + self.smooth(Path(strokes)).end > motion.until - SPARE:
+            # There is no time to go back all the way that the base came: only as far as the arm has room to fold.
             yield from self.follow(Path(strokes[:1]), watch=watch)
             if (yield from self.home_again(begun, motion, watch)):
                 return
             strokes = strokes[1:]
-            if self.world.now + self.smooth(Path(strokes)).end > motion.until:
-                # What comes next begins here.
-                return
         last, leaves = strokes[-1].points[-1], self.leaves(motion, begun)
         is_left, is_near = np.abs(leaves - last)[self.arm_and_base()].max() <= 1e-3, self.is_way(last, leaves)
         if not is_left and is_near:

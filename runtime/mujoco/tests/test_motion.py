@@ -13,6 +13,7 @@ from motet_mujoco.model import load
 from motet_mujoco.motion import HELD, Path, gentle, timed, witnessed
 from motet_mujoco.moving import Failed, Motion, Mover
 from motet_mujoco.observation import Observer
+from motet_mujoco.planner import Planner
 from motet_mujoco.world import World
 
 TABLE = SCENES["panda"][0]
@@ -28,6 +29,12 @@ def mover(hsr):
     hsr.reset()
     options = Options(profile("ideal"), Chance(0).seed)
     return Mover(hsr, Observer(hsr), Beliefs(hsr), None, options)
+
+
+def carry(mover, task):
+    """Carries out a task in the world of a mover."""
+    for _ in task:
+        mover.world.step(mover.goal, mover.rate, mover.change)
 
 
 def rates(path):
@@ -203,3 +210,44 @@ def test_a_witness_does_not_open_the_hand_that_holds_a_thing(mover, monkeypatch)
     path = mover.smooth(mover.path([mover.goal.copy(), there]))
     assert np.allclose(path.at(path.end)[0][grips], mover.goal[grips])
     assert abs(path.at(path.end)[0][0] - there[0]) < 1e-6
+
+
+def test_the_hand_rises_as_far_as_the_robot_does_not_touch_itself(motet, mover):
+    """The lift of the arm of the HSR goes on up to the head. No motion begins where the robot touches itself."""
+    controls, planner = mover.world.model.controls, Planner(motet, "hsr")
+    for joint, value in {"arm_lift_joint": 0.6, "arm_flex_joint": -1.31, "wrist_flex_joint": -1.31}.items():
+        mover.goal[controls[joint]] = value
+    mover.world.data.qpos[mover.world.model.control_qpos] = mover.goal
+    mover.world.refresh()
+    carry(mover, mover.straight(np.array([0.0, 0.0, 0.08])))
+    assert 0.6 <= mover.goal[controls["arm_lift_joint"]] < 0.64
+    assert planner.plan(mover.beliefs.now(), "posture(home)")[1] is None
+
+
+def test_a_corner_on_which_the_robot_touches_itself_is_not_cut(mover):
+    start = mover.world.target.copy()
+    raised = start.copy()
+    raised[mover.world.model.controls["arm_lift_joint"]] = 0.68
+    assert Clearance(mover.world, mover.beliefs).is_free(start, start, [start])
+    assert not Clearance(mover.world, mover.beliefs).is_free(start, start, [raised])
+
+
+@pytest.mark.parametrize("folds_at", [1, 2])
+def test_without_time_for_the_way_back_it_goes_to_where_the_arm_has_room_to_fold(mover, monkeypatch, folds_at):
+    ways, begun = [np.array([0.0, -0.5]), np.array([-0.5, -0.5]), np.array([-0.5, 0.0])], mover.goal.copy()
+    points = [begun]
+    for way in ways:
+        points.append(points[-1].copy())
+        points[-1][:2] = begun[:2] + way
+    path, tries = mover.path(points), []
+    mover.goal[:] = points[-1]
+    mover.world.data.qpos[mover.world.model.control_qpos] = points[-1]
+
+    def home_again(*_):
+        yield
+        tries.append(mover.goal[:2] - begun[:2])
+        return len(tries) == folds_at
+
+    monkeypatch.setattr(mover, "home_again", home_again)
+    carry(mover, mover.way_back(path, begun, Motion({"deadline_secs": 4.0}, mover.world.now), None))
+    assert np.allclose(tries, ways[1::-1][:folds_at], atol=1e-6)
