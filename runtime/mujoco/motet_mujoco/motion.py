@@ -67,7 +67,7 @@ class Path:
 
     def slower(self, factor):
         """The path in a multiple of its time."""
-        strokes = [Stroke(one.points, one.cruise, one.span * factor, one.ramp * factor) for one in self.strokes]
+        strokes = [one.slower(factor, one.share / factor**2) for one in self.strokes]
         return Path(strokes, [overlap * factor for overlap in self.overlaps])
 
     def to(self, points):
@@ -75,7 +75,7 @@ class Path:
         strokes, first = [], 0
         for one in self.strokes:
             last = first + len(one.points) - 1
-            strokes.append(Stroke(points[first : last + 1], one.cruise, one.span, one.ramp))
+            strokes.append(Stroke(points[first : last + 1], one.cruise, one.span, one.ramp, one.share))
             first = last
         return Path(strokes)
 
@@ -89,7 +89,7 @@ class Path:
         for one in self.strokes:
             legs = min(left, len(one.cruise))
             if legs > 0:
-                strokes.append(Stroke(one.points[: legs + 1], one.cruise[:legs], one.span, one.ramp))
+                strokes.append(Stroke(one.points[: legs + 1], one.cruise[:legs], one.span, one.ramp, one.share))
             left -= legs
         return Path(strokes)
 
@@ -97,12 +97,13 @@ class Path:
 class Stroke:
     """A polyline from rest to rest: even acceleration for the time `ramp`, even speed, even braking.
 
-    `cruise` has the seconds that each leg would take at the greatest speed of all its actuators.
+    `cruise` has the seconds that each leg would take at the greatest speed of all its actuators, and `share` is the
+    part of the greatest acceleration that may be used beside it.
     """
 
-    def __init__(self, points, cruise, span, ramp):
+    def __init__(self, points, cruise, span, ramp, share=1.0):
         self.points = [np.array(point, dtype=float) for point in points]
-        self.cruise, self.span = [float(one) for one in cruise], float(span)
+        self.cruise, self.span, self.share = [float(one) for one in cruise], float(span), share
         self.ramp = min(float(ramp), self.span / 2.0)
         self.passed = np.concatenate([[0.0], np.cumsum(self.cruise)])
 
@@ -117,7 +118,11 @@ class Stroke:
 
     def reversed(self):
         """The same stroke from its end to its start."""
-        return Stroke(self.points[::-1], self.cruise[::-1], self.span, self.ramp)
+        return Stroke(self.points[::-1], self.cruise[::-1], self.span, self.ramp, self.share)
+
+    def slower(self, factor, share):
+        """The same stroke in a multiple of its time, with a share of the greatest acceleration."""
+        return Stroke(self.points, self.cruise, self.span * factor, self.ramp * factor, share)
 
 
 def longest(one, other, taken, model):
@@ -131,7 +136,8 @@ def longest(one, other, taken, model):
     # It brakes for the one and accelerates for the other at once.
     braking = one.at(one.span - one.ramp - 1e-6)[1] / max(one.ramp, 1e-9)
     rising = other.at(other.ramp + 1e-6)[1] / max(other.ramp, 1e-9)
-    most = np.maximum(model.speeds / model.ramps, np.maximum(np.abs(braking), np.abs(rising)))
+    usual = min(one.share, other.share) * model.speeds / model.ramps
+    most = np.maximum(usual, np.maximum(np.abs(braking), np.abs(rising)))
     if np.any(np.abs(rising - braking)[shared] > 1.01 * most[shared]):
         return 0.0
     return max(min(one.ramp, other.ramp, one.span - taken, other.span), 0.0)
@@ -149,9 +155,10 @@ def trapezoid(time, span, ramp):
     return fastest * (time - ramp / 2.0), fastest, 0.0
 
 
-def timed(points, model, share=1.0):
-    """A path at a share of the greatest speeds and accelerations of a model. It stops where its direction changes."""
-    return Path([stroke(part, model, share) for part in straight_parts(points)])
+def timed(points, model, share=1.0, acceleration=None):
+    """A path at shares of the greatest speeds and accelerations of a model; without a second one they are the same. It
+    stops where its direction changes."""
+    return Path([stroke(part, model, share, acceleration) for part in straight_parts(points)])
 
 
 def straight_parts(points):
@@ -168,9 +175,12 @@ def straight_parts(points):
     return parts
 
 
-def stroke(points, model, share):
-    """A stroke at a share of the greatest speeds and accelerations of a model."""
+def stroke(points, model, share, acceleration=None):
+    """A stroke at shares of the greatest speeds and accelerations of a model."""
     speeds, cruise, hardest = np.maximum(model.speeds * share, 1e-6), [], 1e-6
+    acceleration = share if acceleration is None else acceleration
+    # Seconds from rest to these speeds.
+    ramps = model.ramps * share / acceleration
     for before, after in zip(points, points[1:]):
         far = np.abs(np.asarray(after) - before)
         if model.drives:
@@ -179,16 +189,16 @@ def stroke(points, model, share):
         cruise.append(float(np.max(needed)))
         if cruise[-1] > 1e-9:
             # Time to the speed at which the leg takes so long.
-            hardest = max(hardest, float(np.max(needed / cruise[-1] * model.ramps)))
+            hardest = max(hardest, float(np.max(needed / cruise[-1] * ramps)))
     length = sum(cruise)
     if length < 1e-9:
-        return Stroke(points, cruise, 0.0, 0.0)
+        return Stroke(points, cruise, 0.0, 0.0, acceleration)
     fast = max(length, np.sqrt(length * hardest))
     ramp = min(length * hardest / fast, fast)
-    return Stroke(points, cruise, fast + ramp, ramp)
+    return Stroke(points, cruise, fast + ramp, ramp, acceleration)
 
 
-def witnessed(points, path, model, share):
+def witnessed(points, path, model, share, acceleration=None):
     """A path at the times of a witness, whose waypoints have `at` and `ramp`. Parts that go on in a direction take the
     time of the model instead: a witness stops at each of its waypoints."""
     strokes, first = [], 0
@@ -196,9 +206,10 @@ def witnessed(points, path, model, share):
         last = first + len(part) - 1
         if len(part) == 2:
             span = path[last]["at"] - path[first]["at"]
-            strokes.append(Stroke(part, [1.0 if span > 0.0 else 0.0], span, path[last].get("ramp", 0.0)))
+            cruise, ramp = [1.0 if span > 0.0 else 0.0], path[last].get("ramp", 0.0)
+            strokes.append(Stroke(part, cruise, span, ramp, share if acceleration is None else acceleration))
         else:
-            strokes.append(stroke(part, model, share))
+            strokes.append(stroke(part, model, share, acceleration))
         first = last
     return Path(strokes)
 
@@ -219,7 +230,7 @@ def gentle(world, stroke):
     turn = sum(np.linalg.norm(rotation_vector(other[1] @ one[1].T)) for one, other in zip(frames, frames[1:]))
     pace = max(far / HELD[0], turn / HELD[1]) / (stroke.ramp * (stroke.span - stroke.ramp))
     factor = max(1.0, np.sqrt(pace))
-    return Stroke(stroke.points, stroke.cruise, stroke.span * factor, stroke.ramp * factor)
+    return stroke.slower(factor, stroke.share)
 
 
 def frame_at(world, target):

@@ -73,9 +73,10 @@ class Mover:
         target, rate, change = path.at(elapsed + self.world.tick / 2.0)
         self.goal[mask], self.rate[mask], self.change[mask] = target[mask], rate[mask], change[mask]
 
-    def path(self, points, speed=1.0):
-        """A path through points at a share of the greatest speeds."""
-        return timed(points, self.world.model, speed)
+    def path(self, points, motion=None, share=1.0):
+        """A path through points in the manner of a command, at a share of its speeds."""
+        motion = motion or Motion(None)
+        return timed(points, self.world.model, motion.speed * share, motion.acceleration * share)
 
     def follow(self, path, what=None, watch=None, keeps=None):
         """Follows a path. Fails with `blocked` where the robot meets something, or falls behind."""
@@ -137,7 +138,7 @@ class Mover:
         for _ in range(max(1, int(round(seconds / self.world.tick)))):
             yield
 
-    def straight(self, way, share=0.8):
+    def straight(self, way, motion, share=0.8):
         """Moves the hand along a short straight line in the map, as far as it goes and the robot does not touch
         itself."""
         world, clearance = self.world, Clearance(self.world, self.beliefs)
@@ -151,17 +152,15 @@ class Mover:
         target = target.copy()
         for at in world.model.grips:
             target[at] = self.goal[at]
-        yield from self.follow(self.path([self.goal.copy(), target], share))
+        yield from self.follow(self.path([self.goal.copy(), target], motion, share))
 
     def motion(self, motion, query, fail="unreachable", scene=None, thing=None):
         """Path of the motion of a command, from where the robot stands; else of one of its own, in the room as it is
         believed to be unless another is given. A thing is one that it puts down."""
-        witness = motion.witness
-        if witness is not None:
-            points = self.points(witness)
-            if np.abs(points[0] - self.goal)[self.arm_and_base()].max() <= BEGINS:
-                return self.timed(points, witness["path"], motion.speed)
-        follows = "its witness begins elsewhere" if witness is not None else "it has no witness"
+        path = self.sent(motion)
+        if path is not None:
+            return path
+        follows = "its witness begins elsewhere" if motion.witness is not None else "it has no witness"
         scene = scene or self.beliefs.now()
         witness, why = self.planner.plan(scene, query) if thing is None else self.put_witness(
             scene, query, thing, self.planner.plan)
@@ -170,15 +169,24 @@ class Mover:
         self.planned.append("%s, %s" % (query, follows))
         return self.own(witness, motion)
 
-    def timed(self, points, path, speed):
-        """A path at the times of a witness, or without them at a share of the greatest speeds."""
+    def sent(self, motion):
+        """Path of the witness of a command; None without one, or where the robot does not stand at its beginning."""
+        points = None if motion.witness is None else self.points(motion.witness)
+        if points is None or np.abs(points[0] - self.goal)[self.arm_and_base()].max() > BEGINS:
+            return None
+        return self.timed(points, motion.witness["path"], motion)
+
+    def timed(self, points, path, motion):
+        """A path at the times of a witness, or without them in the manner of a command."""
         times = [one.get("at") for one in path]
         has_times = None not in times and all(b >= a for a, b in zip(times, times[1:]))
-        return witnessed(points, path, self.world.model, speed) if has_times else self.path(points, speed)
+        if not has_times:
+            return self.path(points, motion)
+        return witnessed(points, path, self.world.model, motion.speed, motion.acceleration)
 
     def own(self, witness, motion):
         """Path of a witness that was not made for the manner of the command."""
-        path = self.timed(self.points(witness), witness["path"], 1.0)
+        path = self.timed(self.points(witness), witness["path"], Motion(None))
         return path.slower(motion.stretch)
 
     def points(self, witness):
@@ -209,7 +217,7 @@ class Mover:
         heights = (self.raised(points[1], height) for height in RAISES if after is not None)
         lifted = next((one for one in heights if one is not None and self.is_way(start, one, after)), None)
         if lifted is not None:
-            first = self.path([start, lifted, after, *points[3:]], motion.speed).strokes
+            first = self.path([start, lifted, after, *points[3:]], motion).strokes
             strokes[: 1 if len(points) > 2 else 2] = first
         watch = self.keeps(thing, "fell on the way back")
         points = [point for stroke in strokes for point in stroke.points]
@@ -218,10 +226,10 @@ class Mover:
             free -= 1
         if free < len(points):
             # From here on, what the hand holds would touch something on the way that the hand came.
-            yield from self.follow(self.path(points[:free], motion.speed), watch=watch)
+            yield from self.follow(self.path(points[:free], motion), watch=watch)
             if (yield from self.home_again(begun, motion, watch)):
                 return
-            strokes = self.path(points[free - 1 :], motion.speed).strokes
+            strokes = self.path(points[free - 1 :], motion).strokes
         while len(strokes) > 1 and self.world.now + self.smooth(Path(strokes)).end > motion.until - SPARE:
             # There is no time to go back all the way that the base came: only as far as the arm has room to fold.
             yield from self.follow(Path(strokes[:1]), watch=watch)
@@ -231,7 +239,7 @@ class Mover:
         last, leaves = strokes[-1].points[-1], self.leaves(motion, begun)
         is_left, is_near = np.abs(leaves - last)[self.arm_and_base()].max() <= 1e-3, self.is_way(last, leaves)
         if not is_left and is_near:
-            strokes.extend(self.path([last, leaves], motion.speed).strokes)
+            strokes.extend(self.path([last, leaves], motion).strokes)
         yield from self.follow(Path(strokes), watch=watch)
         if not is_left and not is_near:
             yield from self.stand(leaves, motion, watch)
@@ -240,7 +248,7 @@ class Mover:
     def stand(self, leaves, motion, watch=None):
         """Drives to where a command leaves the robot, if there is a way and time for it. Whoever stands
         behind an open door may have a long way back, and what comes next can begin here as well."""
-        if motion.leaves is None or not self.world.model.drives:
+        if motion.leaves is None or not self.world.model.drives or np.abs(leaves - self.goal)[:3].max() <= 1e-3:
             return
         witness, _ = self.planner.plan(self.beliefs.now(), stand_at(*leaves[:3]))
         path = None if witness is None else self.own(witness, motion)
@@ -306,7 +314,7 @@ class Mover:
             return True
         witness, _ = self.planner.plan(self.beliefs.now(), "posture(home)")
         if witness is None and self.world.model.drives:
-            witness = yield from self.retreat("posture(home)")
+            witness = yield from self.retreat("posture(home)", motion)
         if witness is None:
             return False
         yield from self.follow(self.own(witness, motion), watch=watch)
@@ -398,7 +406,7 @@ class Mover:
         yield from self.follow(best)
         return True
 
-    def retreat(self, query):
+    def retreat(self, query, motion):
         """Moves the base a little to where it has room for a motion: against the way that the hand points, or to a
         side. Gives the witness of the motion from there, or None where there is no such place."""
         ahead, clearance = self.world.tip()[1][:2, 2], Clearance(self.world, self.beliefs)
@@ -415,7 +423,7 @@ class Mover:
                 yield from self.pause(THINKS)
                 witness, _ = self.planner.plan(scene, query)
                 if witness is not None:
-                    yield from self.follow(self.path([self.goal.copy(), target]))
+                    yield from self.follow(self.path([self.goal.copy(), target], motion))
                     return witness
         return None
 
@@ -427,10 +435,19 @@ class Motion:
         command = command or {}
         motions = command.get("motions") or ([command["motion"]] if command.get("motion") else [])
         self.witness = motions[0].get("witness") if motions else None
+        # Values that the motion is about.
+        self.about = motions[0].get("args", []) if motions else []
         self.leaves = command.get("leaves")
         # The time in s of the world by which it has to be done.
         self.until = now + float(command.get("deadline_secs") or np.inf)
         manner = command.get("manner") or {}
         self.speed = float(manner.get("speed", 1.0))
+        self.acceleration = min(self.speed, float(manner.get("acceleration", 1.0)))
         # Times of a path as a multiple of the shortest.
         self.stretch = max(1.0 / self.speed, float(manner.get("acceleration", 1.0)) ** -0.5)
+
+    def part(self):
+        """A motion that is a part of this one: in the same manner, by the same time."""
+        part = copy.copy(self)
+        part.witness, part.about, part.leaves = None, [], None
+        return part

@@ -10,7 +10,7 @@ import numpy as np
 from .camera import NoGraphics
 from .eyes import extent
 from .motion import near_turn, phases
-from .moving import INSIDE, THINKS, Failed, Motion, Mover
+from .moving import INSIDE, SPARE, THINKS, Failed, Motion, Mover
 from .observation import AT_PLACE
 from .planner import quoted, stand_at
 from .world import OPENED
@@ -35,6 +35,7 @@ class Tasks(Mover):
     def __init__(self, world, observer, beliefs, planner, eyes, options):
         super().__init__(world, observer, beliefs, planner, options)
         self.eyes, self.said = eyes, []
+        self.news = []  # detections that the host has not been told of yet
         self.answers = list(options.answers)
         self.answered = lambda: None  # called when a person has answered
 
@@ -122,7 +123,7 @@ class Tasks(Mover):
     def do_turn(self, args, motion):
         target = self.goal.copy()
         target[2] += number(args["by"])
-        yield from self.drive(self.path([self.goal.copy(), target], motion.speed), None)
+        yield from self.drive(self.path([self.goal.copy(), target], motion), None)
 
     def do_home(self, _args, motion):
         yield from self.take_posture("home", motion)
@@ -146,7 +147,7 @@ class Tasks(Mover):
         query = "reach(%s)" % quoted(thing) if side == "auto" else "reach(%s, %s)" % (quoted(thing), side)
         begun = self.goal.copy()
         path = yield from self.grasp(thing, query, motion)
-        yield from self.straight(np.array([0.0, 0.0, 0.06]))
+        yield from self.straight(np.array([0.0, 0.0, 0.06]), motion)
         if not self.room.holds(thing):
             self.beliefs.forget(thing)
             raise Failed("slipped", "%s slipped out of the hand" % thing)
@@ -206,7 +207,7 @@ class Tasks(Mover):
                 "not_found", "%s is not where it was expected")
             self.beliefs.forget(thing)
             yield from self.grip(False, 0.6)
-            yield from self.straight(-0.08 * self.world.tip()[1][:, 2])
+            yield from self.straight(-0.08 * self.world.tip()[1][:, 2], motion)
             raise Failed(kind, text % thing)
         self.beliefs.holds(thing, float(self.world.tip()[0][2]))
         return path
@@ -215,7 +216,7 @@ class Tasks(Mover):
         held = self.room.held()
         by = number(args["by"])
         before = self.world.tip()[0][2]
-        yield from self.straight(np.array([0.0, 0.0, by]))
+        yield from self.straight(np.array([0.0, 0.0, by]), motion)
         if held and not self.room.holds(held[0]):
             self.beliefs.forget(held[0])
             raise Failed("slipped", "%s slipped out of the hand" % held[0])
@@ -256,7 +257,7 @@ class Tasks(Mover):
         self.beliefs.hand = None
         self.beliefs.looked(thing, *self.beliefs.falls(thing, on, *released))
         yield from self.grip(False, 0.8)
-        yield from self.straight(-0.08 * world.tip()[1][:, 2])
+        yield from self.straight(-0.08 * world.tip()[1][:, 2], motion)
         yield from self.way_back(path, begun, motion, None)
         self.observer.own.moved.add(thing)
         known = self.beliefs.entities[thing]
@@ -287,11 +288,11 @@ class Tasks(Mover):
         except Failed:
             # The base came to stand a little beside where the hand could do it.
             here = self.path([self.goal.copy(), self.goal.copy()])
-            path = yield from self.offering(here, thing, person, Motion(None))
+            path = yield from self.offering(here, thing, person, motion.part())
             if not self.world.model.drives or path is here:
                 raise
             yield from self.drive(path, person)
-            path = self.motion(Motion(None), query)
+            path = self.motion(motion.part(), query)
         yield from self.follow(path, person, self.keeps(thing))
         yield from self.pause(self.options.reaction())
         if self.options.refuses(person):
@@ -305,7 +306,7 @@ class Tasks(Mover):
         self.beliefs.saw(thing, *released)
         self.beliefs.given[thing] = person
         self.observer.own.moved.add(thing)
-        yield from self.straight(-0.05 * world.tip()[1][:, 2])
+        yield from self.straight(-0.05 * world.tip()[1][:, 2], motion)
         yield from self.way_back(path, begun, motion, None)
 
     def do_open(self, args, motion):
@@ -327,15 +328,14 @@ class Tasks(Mover):
             elif phase == "release":
                 yield from self.grip(False, 0.6)
             else:
-                share = motion.speed * (0.5 if phase == "draw" else 1.0)
                 if phase == "draw":
                     drawn, watch = self.drawing(part)
-                    yield from self.follow(self.path(part, share), watch=watch)
+                    yield from self.follow(self.path(part, motion, 0.5), watch=watch)
                     continue
-                yield from self.follow(self.path(part, share), what)
+                yield from self.follow(self.path(part, motion), what)
         if not any(phase == "release" for phase, _ in parts) and any(phase == "grip" for phase, _ in parts):
             yield from self.grip(False, 0.6)
-            yield from self.straight(-0.08 * world.tip()[1][:, 2])
+            yield from self.straight(-0.08 * world.tip()[1][:, 2], motion)
         far, whole = drawn or (1.0, 1.0)
         is_open = world.is_open(what) if self.beliefs.oracle else opens if far >= OPENED * whole else None
         # After a motion that failed, only a look tells how far it came.
@@ -387,14 +387,14 @@ class Tasks(Mover):
                 raise
             if not (yield from self.around(query, one, place, spot, motion)):
                 raise
-            path = self.motion(Motion(None), query, "not_found", self.supposing(one, place))
+            path = self.motion(motion.part(), query, "not_found", self.supposing(one, place))
         yield from self.follow(path)
-        yield from self.uncover(one, place, motion.until - LOOKS)
+        yield from self.uncover(one, place, motion)
         yield from self.pause(0.1)
 
-    def uncover(self, one, place, until):
-        """Turns a camera on the hand so that the hand does not hide where an entity should be, if that is
-        done by a time."""
+    def uncover(self, one, place, motion):
+        """Turns a camera on the hand so that the hand does not hide where an entity should be, if there is time
+        for that."""
         if one not in self.beliefs.things():
             return
         known = self.beliefs.entities[one]
@@ -415,8 +415,8 @@ class Tasks(Mover):
                 return
             for grip in self.world.model.grips:
                 target[grip] = self.goal[grip]
-            path = self.path([self.goal.copy(), target])
-            if self.world.now + path.end > until or not self.is_way(self.goal, target):
+            path = self.path([self.goal.copy(), target], motion)
+            if self.world.now + path.end > motion.until - LOOKS or not self.is_way(self.goal, target):
                 return
             try:
                 yield from self.follow(path)
@@ -432,7 +432,15 @@ class Tasks(Mover):
         return not is_shut and bool(np.hypot(*(self.world.base()[:2] - np.array(spot[:2]))) <= ABOUT_HERE)
 
     def seen(self, wanted, motion):
-        """Ids of the entities, of some, that the camera sees now or after it has turned to where they should be."""
+        """Ids of the entities, of some, that the camera sees now or after it has turned to where they should be: by the
+        motion that was sent, where the robot stands at its beginning."""
+        path = self.sent(motion)
+        if path is not None:
+            try:
+                yield from self.follow(path)
+            except Failed:
+                # What shows from here is looked at.
+                pass
         try:
             found = self.eyes.known(wanted)
         except NoGraphics as error:
@@ -443,7 +451,7 @@ class Tasks(Mover):
             has_looked = False
             for place in self.beliefs.supposed(one) or [None]:
                 try:
-                    yield from self.look(one, motion if len(wanted) == 1 else Motion(None), place)
+                    yield from self.look(one, motion if path is None and len(wanted) == 1 else motion.part(), place)
                 except Failed:
                     continue
                 has_looked = True
@@ -457,14 +465,14 @@ class Tasks(Mover):
                 found |= self.eyes.known(wanted)
         return [one for one in wanted if one in found]
 
-    def seen_at(self, place, wanted):
+    def seen_at(self, place, wanted, motion):
         """Ids of the entities, of some, that the camera sees when it looks at a place as a whole."""
         kind = self.beliefs.entities.get(place, {}).get("kind")
         if not wanted or kind not in ("Surface", "Container") or place not in self.world.model.body_of:
             return []
         for spot in self.beliefs.places(place, kind == "Container", 0.05)[:1]:
             try:
-                yield from self.look(INSIDE, Motion(None), spot)
+                yield from self.look(INSIDE, motion.part(), spot)
             except Failed:
                 return []
         seen = self.eyes.known(wanted)
@@ -484,33 +492,38 @@ class Tasks(Mover):
         if len(found) > 1:
             raise Failed("ambiguous", "%d things in view are called %s" % (len(found), args["what"]["text"]))
         self.observer.own.moved.add(found[0])
+        yield from self.leave(motion)
         return {"entity": found[0]}
 
     def do_detect_all(self, args, motion):
         found = yield from self.seen(self.objects(args["what"]["text"]), motion)
         yield from self.pause(0.3)
         self.observer.own.moved.update(found)
+        yield from self.leave(motion)
         return {"list": [{"entity": one} for one in found]}
 
     def do_search(self, args, motion):
-        what = args["what"]["text"]
-        for place in args["around"]["list"]:
-            to = entity(place)
-            if not self.observer.serves(to):
+        what, places = args["what"]["text"], args["around"]["list"]
+        # The place that the motion that was sent leads to.
+        sent = next((one for one in places if one in motion.about), places[0] if places else None)
+        for place in places:
+            to, way = entity(place), motion if place == sent else motion.part()
+            if not self.observer.serves(to) or self.sent(way) is not None:
                 try:
-                    yield from self.do_go({"to": {"entity": to}}, Motion(None))
+                    yield from self.do_go({"to": {"entity": to}}, way)
                 except Failed as failure:
-                    if place is args["around"]["list"][-1]:
+                    if place is places[-1]:
                         raise failure
                     continue
             wanted = self.objects(what)
-            found = yield from self.seen(wanted, Motion(None))
-            found += yield from self.seen_at(to, [one for one in wanted if one not in found])
+            found = yield from self.seen(wanted, motion.part())
+            found += yield from self.seen_at(to, [one for one in wanted if one not in found], motion)
             found = [one for one in found if to in self.room.supports(one) or self.observer.serves(one)]
             if len(found) > 1:
                 raise Failed("ambiguous", "%d things here are called %s" % (len(found), what))
             if found:
                 self.observer.own.moved.add(found[0])
+                yield from self.leave(motion)
                 return {"entity": found[0]}
         raise Failed("not_found", "nothing at these places is called %s" % what)
 
@@ -524,6 +537,7 @@ class Tasks(Mover):
             raise Failed("not_found", "nobody knows where %s is" % one)
         position, quaternion = seen
         w, x, y, z = (float(part) for part in quaternion)
+        yield from self.leave(motion)
         return {"pose": {"xyz": [float(part) for part in position], "quaternion": [x, y, z, w]}}
 
     def do_ground(self, args, motion):
@@ -539,6 +553,24 @@ class Tasks(Mover):
         is_open = self.eyes.sees_open(one)
         if is_open is not None:
             self.beliefs.opened(one, is_open)
+        yield from self.leave(motion)
+
+    def leave(self, motion):
+        """Goes to where a command leaves the robot after a look, if it says so and there is a way and time for it.
+        What is new in view is told first."""
+        leaves = self.leaves(motion, self.goal)
+        if np.abs(leaves - self.goal).max() <= 1e-3:
+            return
+        try:
+            self.news.extend(self.eyes.news())
+        except NoGraphics:
+            pass
+        yield from self.stand(leaves, motion)
+        target = self.goal.copy()
+        target[self.world.model.arm] = leaves[self.world.model.arm]
+        path = self.path([self.goal.copy(), target], motion)
+        if self.world.now + path.end <= motion.until - SPARE and self.is_way(self.goal, target):
+            yield from self.follow(path)
 
     # Talking.
 

@@ -219,7 +219,7 @@ def test_the_hand_rises_as_far_as_the_robot_does_not_touch_itself(motet, mover):
         mover.goal[controls[joint]] = value
     mover.world.data.qpos[mover.world.model.control_qpos] = mover.goal
     mover.world.refresh()
-    carry(mover, mover.straight(np.array([0.0, 0.0, 0.08])))
+    carry(mover, mover.straight(np.array([0.0, 0.0, 0.08]), Motion(None)))
     assert 0.6 <= mover.goal[controls["arm_lift_joint"]] < 0.64
     assert planner.plan(mover.beliefs.now(), "posture(home)")[1] is None
 
