@@ -25,8 +25,9 @@ ABOUT_HERE = 2.0
 AIMS = 2
 # Seconds that a look takes once the camera stands still.
 LOOKS = 0.5
-# Distances in m, beyond that of a drive to a person, from which the hand may hold something out.
-OFFERS = (0.0, -0.1, 0.15)
+# Distances in m, beyond that of a drive to a person, from which the hand may hold something out, and turns in rad of the
+# base there. Nearer than a drive leads the base comes last: policies keep a distance from people.
+OFFERS, TURNED = (0.0, 0.15, -0.05, -0.1), (0.0, 0.6, -0.6, 1.2, -1.2)
 
 
 class Tasks(Mover):
@@ -85,7 +86,7 @@ class Tasks(Mover):
             for aside in (0.0, 0.3, -0.3, 0.8, -0.8):
                 at = angle + aside
                 stand = x + (far + off) * np.cos(at), y + (far + off) * np.sin(at)
-                places.extend((*stand, float(near_turn(at + np.pi + turn, end[2]))) for turn in (0.0, 1.2, -1.2))
+                places.extend((*stand, float(near_turn(at + np.pi + turn, end[2]))) for turn in TURNED)
         for at, (px, py, yaw) in enumerate(places):
             scene["robot"]["base"] = [float(px), float(py), float(yaw)]
             # The host waits for an answer while the world stands still.

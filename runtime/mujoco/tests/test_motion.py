@@ -251,3 +251,22 @@ def test_without_time_for_the_way_back_it_goes_to_where_the_arm_has_room_to_fold
     monkeypatch.setattr(mover, "home_again", home_again)
     carry(mover, mover.way_back(path, begun, Motion({"deadline_secs": 4.0}, mover.world.now), None))
     assert np.allclose(tries, ways[1::-1][:folds_at], atol=1e-6)
+
+
+def test_a_base_that_holds_something_out_turns_before_it_comes_nearer(motet):
+    """A policy that keeps 0.5 m from people would stop it: a drive to a person ends at 0.6 m."""
+    driver = Driver(load("anymal_z1", "lab", motet), motet, Options(profile("ideal")), oracle=True)
+    tasks, stands = driver.tasks, []
+    witness, _ = tasks.planner.plan(tasks.beliefs.now(), "go_to(user)")
+
+    def ask(scene, _query):
+        stands.append(scene["robot"]["base"])
+        # The hand comes far enough where the base is turned to one side.
+        turn = np.arctan2(3.6 - stands[-1][1], 1.4 - stands[-1][0]) - stands[-1][2]
+        return ("way", None) if 0.5 < turn < 0.7 else (None, ("unknown", "nothing is found"))
+
+    tasks.planner.ask, tasks.planner.plan = ask, lambda *_: (witness, None)
+    for _ in tasks.offering(tasks.own(witness, Motion(None)), "screwdriver", "user", Motion(None)):
+        pass
+    far = [float(np.hypot(x - 1.4, y - 3.6)) for x, y, _ in stands]
+    assert len(far) > 1 and min(far) > far[0] - 1e-3
