@@ -15,8 +15,8 @@ from .motion import set_targets
 KEEPS = {"base": 0.04, "arm": 0.01}
 # Distance in m by which what is too near anyway may come nearer.
 NEARER = 0.001
-# Distance in m that parts of the robot keep from each other.
-OWN = 0.002
+# Distance in m that parts of the robot keep from each other: a little more than motions keep.
+OWN = 0.006
 
 
 class Clearance:
@@ -37,6 +37,9 @@ class Clearance:
             position, quaternion = beliefs.held_pose(held[0])
             self.grip = rotation.T @ (position - place), rotation.T @ matrix(quaternion)
         self.margins = self.margins_of({**KEEPS, **(keeps or {})})
+        # Geoms of the robot and of what it holds.
+        mine = {"robot", self.held} - {None}
+        self.mine = np.array([owner in mine for owner in self.model.geom_owner])
 
     def margins_of(self, keeps):
         """Margin of each geom: that of the base or of the arm, and none of things."""
@@ -63,25 +66,23 @@ class Clearance:
             mujoco.mju_mat2Quat(turned, np.ascontiguousarray(rotation @ self.grip[1]).ravel())
             data.qpos[at : at + 3], data.qpos[at + 3 : at + 7] = place + rotation @ self.grip[0], turned
         find_contacts(self.model, data, np.maximum(mj.geom_margin, self.margins))
-        owner, mine = self.model.geom_owner, ("robot", self.held)
         found = {bodies: gap for bodies, gap in own_contacts(self.model, data) if bodies not in together(self.model)}
-        for at in range(data.ncon):
-            one, other = data.contact[at].geom
-            pair = (owner[one], owner[other])
-            is_floor = self.model.floor in (one, other)
-            if not is_floor and (pair[0] in mine) != (pair[1] in mine):
-                bodies = mj.geom_bodyid[one], mj.geom_bodyid[other]
-                found[bodies] = min(found.get(bodies, np.inf), data.contact[at].dist)
+        geoms = data.contact.geom
+        is_met = (self.mine[geoms].sum(axis=1) == 1) & ~(geoms == self.model.floor).any(axis=1)
+        for at in np.flatnonzero(is_met):
+            bodies = tuple(mj.geom_bodyid[geoms[at]])
+            found[bodies] = min(found.get(bodies, np.inf), data.contact.dist[at])
         return found
 
     def touches_itself(self, target):
-        """True if parts of the robot are too near to each other at targets that are not so at the start."""
-        before, after = (self.own(one) for one in (self.start[self.model.control_qpos], target))
-        return not after <= before
+        """True if parts of the robot are too near to each other at targets, and nearer than at the start."""
+        before = self.own(self.start[self.model.control_qpos])
+        return any(gap < before.get(bodies, OWN) - 1e-4 for bodies, gap in self.own(target).items())
 
     def own(self, target):
-        """Pairs of bodies of the robot that are too near to each other at targets."""
-        return {bodies for bodies in self.near(target) if all(self.model.owner[one] == "robot" for one in bodies)}
+        """Pairs of bodies of the robot that are too near to each other at targets, with their distances in m."""
+        owner = self.model.owner
+        return {bodies: gap for bodies, gap in self.near(target).items() if all(owner[one] == "robot" for one in bodies)}
 
     def is_free(self, start, corner, targets):
         """True if at all targets nothing is too near, or at least no nearer than at the start or the corner
@@ -110,11 +111,10 @@ def find_contacts(model, data, margins):
 
 def own_contacts(model, data):
     """Pairs of bodies of the robot that are too near to each other, with their distances in m. Fingers may close."""
-    for at in range(data.ncon):
-        geoms, gap = data.contact[at].geom, data.contact[at].dist
-        is_own = all(model.geom_owner[geom] == "robot" for geom in geoms)
-        if is_own and gap < OWN and not all(geom in model.hand_geoms for geom in geoms):
-            yield tuple(sorted(int(body) for body in model.mj.geom_bodyid[geoms])), gap
+    geoms, (own, _) = data.contact.geom, parts(model)
+    is_own = np.isin(geoms, own).all(axis=1) & ~np.isin(geoms, list(model.hand_geoms)).all(axis=1)
+    for at in np.flatnonzero(is_own & (data.contact.dist < OWN)):
+        yield tuple(sorted(int(body) for body in model.mj.geom_bodyid[geoms[at]])), data.contact.dist[at]
 
 
 @functools.lru_cache(maxsize=4)

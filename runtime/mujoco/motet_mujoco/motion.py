@@ -289,23 +289,24 @@ class Reacher:
         mujoco.mj_kinematics(self.model.mj, data)
         return data.site_xpos[self.model.tip].copy(), data.site_xmat[self.model.tip].reshape(3, 3).copy()
 
-    def solve(self, qpos, target, place, rotation, rounds=60):
+    def solve(self, qpos, target, place, rotation, ends=None, rounds=60):
         """Targets near to given ones with the hand at a pose, or None. `qpos` holds everything else. The base moves
-        only where the arm alone does not get there."""
+        only where the arm alone does not get there. Ends are the least and greatest targets, where they are not those
+        of the robot."""
         if self.model.drives:
             still = self.weights.copy()
             still[:3] = 0.0
-            found = self.solved(still, qpos, target, place, rotation, rounds)
+            found = self.solved(still, qpos, target, place, rotation, ends, rounds)
             if found is not None:
                 return found
-        return self.solved(self.weights, qpos, target, place, rotation, rounds)
+        return self.solved(self.weights, qpos, target, place, rotation, ends, rounds)
 
-    def solved(self, weights, qpos, target, place, rotation, rounds):
+    def solved(self, weights, qpos, target, place, rotation, ends, rounds):
         """Targets as `solve` gives them, with a weight for the motion of each actuator."""
         model, data = self.model, self.data
         mj = model.mj
         target = np.array(target, dtype=float)
-        low, high = limits(model)
+        low, high = ends or limits(model)
         jac_p, jac_r = np.zeros((3, mj.nv)), np.zeros((3, mj.nv))
         for _ in range(rounds):
             set_targets(model, data, qpos, target)
@@ -316,10 +317,13 @@ class Reacher:
             if np.linalg.norm(off) < 1e-4 and np.linalg.norm(turn) < 1e-3:
                 return target
             mujoco.mj_jacSite(mj, data, jac_p, jac_r, model.tip)
-            jacobian = np.vstack([jac_p, jac_r])[:, model.control_qvel] * weights
-            error = np.concatenate([off, turn])
-            step = jacobian.T @ np.linalg.solve(jacobian @ jacobian.T + 1e-4 * np.eye(6), error)
-            target = np.clip(target + weights * np.clip(step, -0.2, 0.2), low, high)
+            jacobian, error, free = np.vstack([jac_p, jac_r])[:, model.control_qvel], np.concatenate([off, turn]), weights
+            for _ in range(2):
+                moves = jacobian * free
+                step = moves.T @ np.linalg.solve(moves @ moves.T + 1e-4 * np.eye(6), error)
+                # What is at its end leaves the rest of the way to the others.
+                free = np.where((target <= low) & (step < 0.0) | (target >= high) & (step > 0.0), 0.0, free)
+            target = np.clip(target + free * np.clip(step, -0.2, 0.2), low, high)
         return None
 
 

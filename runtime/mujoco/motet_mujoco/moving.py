@@ -10,7 +10,7 @@ import mujoco
 import numpy as np
 
 from .clearance import Clearance
-from .motion import Path, frame_at, gentle, near_turn, timed, witnessed
+from .motion import Path, frame_at, gentle, limits, near_turn, timed, witnessed
 from .planner import quoted, stand_at
 
 # Differences in m or rad up to which the robot stands at the beginning of a path.
@@ -145,14 +145,33 @@ class Mover:
         place, rotation = world.tip()
         target = self.goal
         for step in range(1, 5):
-            further = world.reacher.solve(world.data.qpos, target, place + way * step / 4.0, rotation)
-            if further is None or clearance.touches_itself(further):
+            further = self.reaching(target, place + way * step / 4.0, rotation, clearance)
+            if further is None:
                 break
             target = further
         target = target.copy()
         for at in world.model.grips:
             target[at] = self.goal[at]
         yield from self.follow(self.path([self.goal.copy(), target], motion, share))
+
+    def reaching(self, target, place, rotation, clearance):
+        """Targets near to given ones with the hand at a pose at which the robot does not touch itself, or None. A joint
+        that would bring its parts together stops before, and the others do the rest."""
+        world = self.world
+        found = world.reacher.solve(world.data.qpos, target, place, rotation)
+        if found is None or not clearance.touches_itself(found):
+            return found
+        low, high = (end.copy() for end in limits(world.model))
+        for at in np.flatnonzero(np.abs(found - target) > 1e-6):
+            for share in (0.75, 0.5, 0.25, 0.0):
+                shorter = found.copy()
+                shorter[at] = target[at] + (found[at] - target[at]) * share
+                if not clearance.touches_itself(shorter):
+                    end = high if found[at] > target[at] else low
+                    end[at] = shorter[at]
+                    break
+        found = world.reacher.solve(world.data.qpos, target, place, rotation, (low, high))
+        return None if found is None or clearance.touches_itself(found) else found
 
     def motion(self, motion, query, fail="unreachable", scene=None, thing=None):
         """Path of the motion of a command, from where the robot stands; else of one of its own, in the room as it is
@@ -282,7 +301,8 @@ class Mover:
         """Targets near to others with the hand higher."""
         world = self.world
         place, rotation = self.frame(point)
-        raised = world.reacher.solve(world.data.qpos, point, place + np.array([0.0, 0.0, height]), rotation)
+        up = np.array([0.0, 0.0, height])
+        raised = self.reaching(point, place + up, rotation, Clearance(world, self.beliefs))
         if raised is not None:
             for at in world.model.grips:
                 raised[at] = point[at]

@@ -207,3 +207,37 @@ def test_a_place_that_was_not_measured_has_no_error(kitchen):
         assert kitchen.erred([part])[0]["pose"]["xyz"] == pytest.approx(mug, abs=1e-4)
     finally:
         kitchen.rates = {"error_per_m": 0.0, "miss": 0.0, "confuse": 0.0}
+
+
+def test_a_picture_is_taken_anew_only_where_it_may_show_something_else(kitchen, monkeypatch):
+    world, taken, look = kitchen.world, [], kitchen.camera.look
+    monkeypatch.setattr(kitchen.camera, "look", lambda name: taken.append(name) or look(name))
+    world.wait(0.5)
+    kitchen.detections()
+    first, taken[:] = [one["id"] for one in kitchen.last], []
+    world.step()
+    assert [one["id"] for one in kitchen.detections()] == first and not taken
+    # What is believed may change the ids.
+    kitchen.beliefs.forget("mug_1")
+    kitchen.at = -1.0
+    assert "mug_1" in {one["id"] for one in kitchen.detections()} and not taken
+    world.place("mug_1", world.pose("mug_1")[0] + [0.0, 0.01, 0.0])
+    world.step()
+    kitchen.detections()
+    assert taken
+
+
+def test_components_are_cut_where_depth_or_colour_jumps():
+    """A snake of pixels is one part, however long; a jump of the depth or of the hue makes two."""
+    mask = np.zeros((9, 9), dtype=bool)
+    mask[::2] = True
+    mask[1::4, -1] = mask[3::4, 0] = True
+    depth, colour = np.ones(mask.shape), np.zeros((9, 9, 3), dtype=np.uint8)
+    colour[...] = (200, 38, 38)
+    labels = detector.components(mask, depth, colour)
+    assert labels.max() == 1 and np.array_equal(labels > 0, mask)
+    depth[6:] += 0.1
+    assert detector.components(mask, depth, colour).max() == 2
+    colour[:2] = (40, 84, 190)
+    labels = detector.components(mask, depth, colour)
+    assert labels.max() == 3 and labels[0, 0] == 1 and labels[8, 8] == 3
