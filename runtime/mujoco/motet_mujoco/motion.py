@@ -28,6 +28,11 @@ class Path:
             self.starts.append(now)
             now += stroke.span - overlap
         self.end = now  # time at which the path ends, in s
+        # Targets after the first strokes, each of which ends before the next does.
+        self.reached = [strokes[0].points[0]]
+        for stroke in strokes:
+            self.reached.append(self.reached[-1] + (stroke.points[-1] - stroke.points[0]))
+        self.ends = np.maximum.accumulate([start + stroke.span for start, stroke in zip(self.starts, strokes)])
 
     @property
     def points(self):
@@ -36,9 +41,10 @@ class Path:
 
     def at(self, time):
         """Targets, their rates and their accelerations at a time."""
-        target = self.strokes[0].points[0].copy()
+        first = int(np.searchsorted(self.ends, time, side="right"))
+        target = self.reached[first].copy()
         rate, change = np.zeros((2, len(target)))
-        for start, stroke in zip(self.starts, self.strokes):
+        for start, stroke in zip(self.starts[first:], self.strokes[first:]):
             if time >= start + stroke.span:
                 target += stroke.points[-1] - stroke.points[0]
             elif time > start:

@@ -87,13 +87,13 @@ class Mover:
         if not mask.any():
             return
         elapsed, behind = 0.0, 0
+        led = np.array([at for at in np.flatnonzero(mask) if at not in model.grips], dtype=int)
         while elapsed < path.end:
             self.aim(path, elapsed, mask)
             elapsed += world.tick
             yield
-            off = np.abs(world.data.qpos[model.control_qpos] - self.goal)
-            off[list(model.grips)] = 0.0
-            behind = behind + 1 if off[mask].max() > BLOCKED else 0
+            off = np.abs(world.data.qpos[model.control_qpos[led]] - self.goal[led])
+            behind = behind + 1 if off.max(initial=0.0) > BLOCKED else 0
             if behind > 25:
                 met = self.room.bumped() or what or "something"
                 # What pushes on would push for ever.
