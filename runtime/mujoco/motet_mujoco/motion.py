@@ -9,6 +9,8 @@ STRAIGHT = 0.97
 SHARES = (1.0, 0.75, 0.5, 0.25)
 # Seconds between two checks of a corner that is cut.
 CHECKED = 0.03
+# Distance in m up to which the middle of the base leaves its way in a corner.
+BASE_OFF = 0.003
 # Greatest acceleration of the hand while it holds something, in m/s² and rad/s².
 HELD = (1.0, 3.0)
 
@@ -59,7 +61,7 @@ class Path:
         may be passed: (start of the first stroke, corner, targets) → bool."""
         overlaps, before, rest = [], 0.0, len(self.strokes) - 2
         for at, (one, other) in enumerate(zip(self.strokes, self.strokes[1:])):
-            most, found = longest(one, other, before, model), 0.0
+            most, found = least_off(one, other, longest(one, other, before, model), model), 0.0
             for share in SHARES if most > 0.02 else ():
                 trial = Path(self.strokes, [*overlaps, most * share, *[0.0] * (rest - at)])
                 start = trial.starts[at + 1]
@@ -147,6 +149,28 @@ def longest(one, other, taken, model):
     if np.any(np.abs(rising - braking)[shared] > 1.01 * most[shared]):
         return 0.0
     return max(min(one.ramp, other.ramp, one.span - taken, other.span), 0.0)
+
+
+def least_off(one, other, overlap, model):
+    """An overlap in s of a stroke with the next, or the shorter one with which the base stays near its way."""
+    if not model.drives or overlap <= 0.0:
+        return overlap
+    corner = one.points[-1][:2]
+    ways = [part for part in (corner - one.points[-2][:2], other.points[1][:2] - corner) if np.linalg.norm(part) > 1e-9]
+    if len(ways) < 2:
+        return overlap
+
+    def off(overlap):
+        # How far the base is from the lines of both legs.
+        path = Path([one, other], [overlap])
+        rest = np.array([path.at(time)[0][:2] for time in np.linspace(path.starts[1], one.span, 9)]) - corner
+        units = [way / np.linalg.norm(way) for way in ways]
+        return np.min([np.abs(rest[:, 0] * unit[1] - rest[:, 1] * unit[0]) for unit in units], axis=0).max()
+
+    while off(overlap) > BASE_OFF and overlap > CHECKED:
+        # The way off grows with the square of the overlap.
+        overlap *= min(0.98 * np.sqrt(BASE_OFF / off(overlap)), 0.9)
+    return overlap
 
 
 def trapezoid(time, span, ramp):

@@ -273,3 +273,16 @@ def test_a_base_that_holds_something_out_turns_before_it_comes_nearer(motet):
         pass
     far = [float(np.hypot(x - 1.4, y - 3.6)) for x, y, _ in stands]
     assert len(far) > 1 and min(far) > far[0] - 1e-3
+
+
+@pytest.mark.parametrize("turn", [0.3, 0.7, 1.2])
+def test_the_base_stays_near_its_way_in_a_corner(hsr, turn):
+    points = [hsr.target.copy() for _ in range(3)]
+    points[1][0] += 1.0
+    points[2][:2] = points[1][:2] + [np.cos(turn), np.sin(turn)]
+    stopping = timed(points, hsr.model)
+    path = stopping.blended(hsr.model, lambda *_: True)
+    legs = [np.linspace(one[:2], other[:2], 2001) for one, other in zip(points, points[1:])]
+    way = np.concatenate(legs)
+    off = [np.linalg.norm(way - path.at(time)[0][:2], axis=1).min() for time in np.arange(0.0, path.end, 0.02)]
+    assert path.end < stopping.end and max(off) <= 0.0035
