@@ -1,12 +1,9 @@
 """What pixels tell: things by colour, size and shape, with the ids of what is known."""
 
-import sys
-import types
-
 import numpy as np
 import pytest
 from host import placed
-from motet_mujoco import detector, open_vocabulary
+from motet_mujoco import detector
 from motet_mujoco.beliefs import Beliefs
 from motet_mujoco.camera import Camera, NoGraphics
 from motet_mujoco.eyes import Eyes
@@ -75,53 +72,6 @@ def test_pictures_survive_the_wire(kitchen):
                                           ((128, 130, 131), "grey"), ((20, 20, 22), "black"), ((250, 250, 249), "white")])
 def test_colours_have_names(colour, name):
     assert detector.colour_name(colour) == name
-
-
-def test_open_vocabulary_with_random_weights(kitchen):
-    """The loading path and the geometry of boxes; random weights find nothing of meaning."""
-    transformers = pytest.importorskip("transformers")
-    pytest.importorskip("torch")
-    from motet_mujoco.open_vocabulary import OpenVocabulary, place
-
-    small = {"hidden_size": 32, "intermediate_size": 64, "num_hidden_layers": 1, "num_attention_heads": 2}
-    config = transformers.Owlv2Config(text_config=dict(small, vocab_size=99), projection_dim=32,
-                                      vision_config=dict(small, image_size=64, patch_size=16))
-    model = transformers.Owlv2ForObjectDetection(config).eval()
-
-    def processor(text, images, return_tensors):
-        import torch
-
-        ids = torch.randint(1, 98, (len(text[0]), 16))
-        return {"input_ids": ids, "attention_mask": torch.ones_like(ids), "pixel_values": torch.rand(1, 3, 64, 64)}
-
-    picture = kitchen.look()
-    found = OpenVocabulary(model, processor, ["red mug", "apple"], threshold=0.0).detect(picture)
-    assert all(one["label"] in ("red mug", "apple") and len(one["extent"]) == 3 for one in found)
-    assert place(picture, (0, 0, 1, 1)) is None
-
-
-def test_open_vocabulary_loads_a_folder(monkeypatch, tmp_path):
-    """The program loads the model and its processor of a folder, and answers lines with what they find."""
-    asked = []
-
-    class Part:
-        def __init__(self, name):
-            self.name, self.is_frozen = name, False
-
-        @classmethod
-        def from_pretrained(cls, folder):
-            asked.append((cls.__name__, folder))
-            return cls(folder)
-
-        def eval(self):
-            self.is_frozen = True
-            return self
-
-    kinds = {name: type(name, (Part,), {}) for name in ("Owlv2ForObjectDetection", "Owlv2Processor")}
-    monkeypatch.setitem(sys.modules, "transformers", types.SimpleNamespace(**kinds))
-    loaded = open_vocabulary.OpenVocabulary.load(str(tmp_path), ["red mug"], 0.3)
-    assert sorted(asked) == [(name, str(tmp_path)) for name in sorted(kinds)]
-    assert loaded.model.is_frozen and loaded.words == ["red mug"] and loaded.threshold == 0.3
 
 
 def test_the_camera_has_no_window(kitchen):
