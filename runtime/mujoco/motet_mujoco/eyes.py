@@ -292,7 +292,7 @@ class Eyes:
             found.extend(self.parts(one))
         held = self.beliefs.in_hand()
         for thing in held:
-            # Where the hand holds it, the robot knows it.
+            # Where the hand holds it, the robot knows it, and what is seen there is no other thing.
             self.beliefs.saw(thing, *self.beliefs.held_pose(thing))
         self.assign(found)
         parts = {one["id"] for one in found}.union(held)
@@ -381,12 +381,17 @@ class Eyes:
 
     def fits(self, one):
         """Believed things that a detection may be, each with how badly it fits."""
-        position, size = np.array(one["pose"]["xyz"]), np.array(one["extent"])
+        position, size, held = np.array(one["pose"]["xyz"]), np.array(one["extent"]), self.beliefs.in_hand()
+        is_held = self.is_part(one, held)
         for thing in self.beliefs.things():
             entity = self.beliefs.entities[thing]
-            if not painted(entity, one["label"]):
+            if not painted(entity, one["label"]) or (thing in held) is not is_held:
                 continue
             off, like = self.off(entity, position), unlike(size, extent(entity))
+            lost = self.beliefs.lost.get(thing) if off is None else None
+            if lost is not None and np.linalg.norm(position - lost) <= ABOUT:
+                # It is most likely not far from where it was.
+                off = float(np.linalg.norm(position - lost))
             if off is None and np.sort(size)[1] < SLIVER * np.sort(extent(entity))[1]:
                 continue
             if off is not None and off <= ABOUT and like <= UNLIKE or off is None and like <= UNLIKE_ANYWHERE:

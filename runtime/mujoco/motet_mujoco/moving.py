@@ -11,7 +11,8 @@ import numpy as np
 
 from .clearance import Clearance
 from .motion import Path, frame_at, gentle, limits, near_turn, timed, witnessed
-from .planner import quoted, stand_at
+from .planner import START, quoted, stand_at
+from .trail import Trail
 
 # Differences in m or rad up to which the robot stands at the beginning of a path.
 BEGINS = 0.05
@@ -38,6 +39,8 @@ STEP = 0.05
 INSIDE = "inside"
 # Seconds before its deadline by which a command is to be done.
 SPARE = 1.0
+# Queries of the postures of the arm.
+POSTURES = {"home": "posture(home)", "ready": "posture(start)"}
 # Seconds that pass for each place of which a plan is tried, so that no answer to the host takes long.
 THINKS = 0.1
 
@@ -67,6 +70,8 @@ class Mover:
         self.goal = world.target.copy()  # targets that the tasks aim at
         self.rate, self.change = np.zeros_like(self.goal), np.zeros_like(self.goal)
         self.lost = 0
+        # The way that the robot came, and whether a motion ended on its way.
+        self.trail, self.is_adrift = Trail(world.model.grips), False
 
     def aim(self, path, elapsed, mask):
         """Aims the actuators of a mask at a path."""
@@ -92,6 +97,7 @@ class Mover:
             self.aim(path, elapsed, mask)
             elapsed += world.tick
             yield
+            self.trail.add(self.goal)
             off = np.abs(world.data.qpos[model.control_qpos[led]] - self.goal[led])
             behind = behind + 1 if off.max(initial=0.0) > BLOCKED else 0
             if behind > 25:
@@ -181,8 +187,19 @@ class Mover:
             return path
         follows = "its witness begins elsewhere" if motion.witness is not None else "it has no witness"
         scene = scene or self.beliefs.now()
-        witness, why = self.planner.plan(scene, query) if thing is None else self.put_witness(
-            scene, query, thing, self.planner.plan)
+
+        def plan():
+            return self.planner.plan(scene, query) if thing is None else self.put_witness(
+                scene, query, thing, self.planner.plan)
+
+        (witness, why), is_posture = plan(), query.startswith("posture(")
+        if witness is None and (is_posture or START in why[1]):
+            # From here no motion begins.
+            witness = yield from self.come_free(query if is_posture else POSTURES["home"], motion)
+            if witness is not None and not is_posture:
+                yield from self.follow(self.own(witness, motion))
+                scene["robot"] = self.beliefs.now()["robot"]
+                witness, why = plan()
         if witness is None:
             raise Failed(KINDS.get(why[0], fail), why[1])
         self.planned.append("%s, %s" % (query, follows))
@@ -263,6 +280,16 @@ class Mover:
         if not is_left and not is_near:
             yield from self.stand(leaves, motion, watch)
         yield from self.pause(0.2)
+
+    def draw_back(self, path, begun, motion):
+        """Opens a hand that did not get what it reached for, and brings it back, to where the thing is not hidden by
+        it."""
+        yield from self.grip(False, 0.6)
+        try:
+            yield from self.straight(-0.08 * self.world.tip()[1][:, 2], motion)
+            yield from self.way_back(path, begun, motion, None)
+        except Failed:
+            return
 
     def stand(self, leaves, motion, watch=None):
         """Drives to where a command leaves the robot, if there is a way and time for it. Whoever stands
@@ -426,6 +453,73 @@ class Mover:
         yield from self.follow(best)
         return True
 
+    def from_rest(self, task, motion, anywhere=False):
+        """A task that begins with the arm at rest, or anywhere: where a motion ended on its way, the arm comes back
+        first."""
+        if self.is_adrift and not anywhere:
+            yield from self.fold(motion)
+        begun, is_done = self.goal.copy(), False
+        try:
+            value = yield from task
+            is_done = True
+        finally:
+            arm = self.world.model.arm
+            self.is_adrift |= not is_done and bool(np.abs(self.goal - begun)[arm].max() > BEGINS)
+        return value
+
+    def fold(self, motion):
+        """Brings the arm to where it was before a motion that ended on its way, if it finds a way there."""
+        for query in (POSTURES[self.observer.own.posture], POSTURES["home"]):
+            witness = yield from self.come_free(query, motion)
+            if witness is not None:
+                try:
+                    yield from self.follow(self.own(witness, motion))
+                except Failed:
+                    return
+                self.is_adrift = False
+                return
+
+    def come_free(self, query, motion):
+        """Brings the robot to where a motion begins: opens a hand that holds nothing, and goes back the way that the
+        robot came, or a little aside. Gives the witness of the motion from there, or None where there is none."""
+        yield from self.let_go(motion)
+        witness, _ = self.planner.plan(self.beliefs.now(), query)
+        if witness is not None:
+            return witness
+        held = self.room.held()
+        for left, way in self.trail.back(self.goal):
+            if held and not self.is_way(*way, keeps=TOUCHES):
+                # What the hand holds was not in it as it came.
+                break
+            yield from self.pause(THINKS)
+            witness, _ = self.planner.plan(self.standing(way[-1]), query)
+            if witness is not None:
+                yield from self.follow(self.path(way, motion))
+                del self.trail.points[left:]
+                return witness
+        return (yield from self.retreat(query, motion)) if self.world.model.drives else None
+
+    def let_go(self, motion):
+        """Opens a hand that is not open and holds nothing, as where it closed around something, and draws it back."""
+        grips = self.world.model.grips.items()
+        is_open = all(abs(self.goal[at] - opened) <= 0.1 * abs(closed - opened) for at, (opened, closed) in grips)
+        if is_open or self.room.held():
+            return
+        yield from self.grip(False, 0.6)
+        try:
+            yield from self.straight(-0.08 * self.world.tip()[1][:, 2], motion)
+        except Failed:
+            return
+
+    def standing(self, target):
+        """The room as it is believed to be, with the robot at targets of the actuators."""
+        scene, model = self.beliefs.now(), self.world.model
+        robot = scene["robot"]
+        robot["joints"] = {joint: float(target[model.controls[joint]]) for joint in robot["joints"]}
+        if model.drives:
+            robot["base"] = [float(part) for part in target[:3]]
+        return scene
+
     def retreat(self, query, motion):
         """Moves the base a little to where it has room for a motion: against the way that the hand points, or to a
         side. Gives the witness of the motion from there, or None where there is no such place."""
@@ -438,10 +532,8 @@ class Mover:
                 between = [self.goal + (target - self.goal) * share for share in np.linspace(0.1, 1.0, 10)]
                 if not clearance.is_free(self.goal, self.goal, between):
                     continue
-                scene = self.beliefs.now()
-                scene["robot"]["base"] = [float(part) for part in target[:3]]
                 yield from self.pause(THINKS)
-                witness, _ = self.planner.plan(scene, query)
+                witness, _ = self.planner.plan(self.standing(target), query)
                 if witness is not None:
                     yield from self.follow(self.path([self.goal.copy(), target], motion))
                     return witness

@@ -10,11 +10,14 @@ import numpy as np
 from .camera import NoGraphics
 from .eyes import extent
 from .motion import near_turn, phases
-from .moving import INSIDE, SPARE, THINKS, Failed, Motion, Mover
+from .moving import INSIDE, POSTURES, SPARE, THINKS, Failed, Motion, Mover
 from .observation import AT_PLACE
 from .planner import quoted, stand_at
 from .world import OPENED
 
+# Primitives that do not move the arm, and those that begin with the arm wherever it is: they fold it, or look.
+ARMLESS = ("say", "ask", "choose", "wake_up")
+ANYWHERE = ("home", "start_pose", "detect", "detect_all", "locate", "ground", "inspect")
 # Distance in m from a thing up to which a given point counts as being at it.
 NEAR_GRASP = 0.05
 # Distance in m that a handle moves in the hand at least where its drawer or door is not locked.
@@ -49,7 +52,9 @@ class Tasks(Mover):
         run = getattr(self, "do_" + command["primitive"], None)
         if run is None:
             return None
-        return run({name: value for name, value in command["args"]}, Motion(command, self.world.now))
+        motion = Motion(command, self.world.now)
+        task = run({name: value for name, value in command["args"]}, motion)
+        return task if command["primitive"] in ARMLESS else self.from_rest(task, motion, command["primitive"] in ANYWHERE)
 
     # Moving.
 
@@ -59,7 +64,7 @@ class Tasks(Mover):
         if motion.witness is None and self.room.is_open(about) and (yield from self.face(about, motion)):
             self.observer.own.visited.update((to, about))
             return
-        path, held = self.motion(motion, "go_to(%s)" % quoted(about)), self.room.held()
+        held, path = self.room.held(), (yield from self.motion(motion, "go_to(%s)" % quoted(about)))
         if held and to in self.world.model.people:
             # The hand may hold it otherwise than whoever planned the way expected.
             path = yield from self.offering(path, held[0], to, motion)
@@ -118,7 +123,7 @@ class Tasks(Mover):
         pose = args["to"]["pose"]
         x, y, _ = pose["xyz"]
         yaw = yaw_of(pose["quaternion"])
-        path = self.motion(motion, stand_at(x, y, yaw))
+        path = yield from self.motion(motion, stand_at(x, y, yaw))
         yield from self.drive(path, None)
 
     def do_turn(self, args, motion):
@@ -130,11 +135,11 @@ class Tasks(Mover):
         yield from self.take_posture("home", motion)
 
     def do_start_pose(self, _args, motion):
-        yield from self.take_posture("start", motion)
+        yield from self.take_posture("ready", motion)
 
     def take_posture(self, posture, motion):
-        yield from self.follow(self.motion(motion, "posture(%s)" % posture, "blocked"))
-        self.observer.own.posture = {"home": "home", "start": "ready"}[posture]
+        yield from self.follow((yield from self.motion(motion, POSTURES[posture], "blocked")))
+        self.observer.own.posture, self.is_adrift = posture, False
 
     def do_wake_up(self, _args, _motion):
         yield from self.pause(2.0)
@@ -144,13 +149,14 @@ class Tasks(Mover):
 
     def do_pick(self, args, motion):
         thing = entity(args["object"])
-        side = args.get("from", {}).get("case", "auto")
+        side, begun = args.get("from", {}).get("case", "auto"), self.goal.copy()
         query = "reach(%s)" % quoted(thing) if side == "auto" else "reach(%s, %s)" % (quoted(thing), side)
-        begun = self.goal.copy()
         path = yield from self.grasp(thing, query, motion)
         yield from self.straight(np.array([0.0, 0.0, 0.06]), motion)
         if not self.room.holds(thing):
             self.beliefs.forget(thing)
+            yield from self.draw_back(path, begun, motion)
+            self.glance()
             raise Failed("slipped", "%s slipped out of the hand" % thing)
         yield from self.way_back(path, begun, motion, thing)
         self.beliefs.rests(thing, None, None)
@@ -196,7 +202,8 @@ class Tasks(Mover):
 
     def grasp(self, thing, query, motion):
         """Reaches a thing and closes the hand around it. Gives the path of the way there."""
-        path = self.motion(motion, query)
+        begun = self.goal.copy()
+        path = yield from self.motion(motion, query)
         points = path.points
         dx, dy = self.options.chance.error(self.options.rates["hand"]["error_m"], "hand", thing)
         path = path.to(self.aside(points, np.array([dx, dy, 0.0])) or points)
@@ -207,8 +214,8 @@ class Tasks(Mover):
             kind, text = ("slipped", "%s is not between the fingers") if self.room.is_touched(thing) else (
                 "not_found", "%s is not where it was expected")
             self.beliefs.forget(thing)
-            yield from self.grip(False, 0.6)
-            yield from self.straight(-0.08 * self.world.tip()[1][:, 2], motion)
+            yield from self.draw_back(path, begun, motion)
+            self.glance()
             raise Failed(kind, text % thing)
         self.beliefs.holds(thing, float(self.world.tip()[0][2]))
         return path
@@ -249,7 +256,7 @@ class Tasks(Mover):
         world, begun = self.world, self.goal.copy()
         if not self.room.holds(thing):
             raise Failed("slipped", "the hand does not hold %s" % thing)
-        path = self.motion(motion, query, thing=thing)
+        path = yield from self.motion(motion, query, thing=thing)
         approach = phases(path.points, world.model.grips, "draw")[0][1]
         path = path.until(approach)
         yield from self.follow(path, on, self.keeps(thing))
@@ -285,7 +292,7 @@ class Tasks(Mover):
             raise Failed("slipped", "the hand does not hold %s" % thing)
         query = "offer(%s, %s)" % (quoted(thing), quoted(person))
         try:
-            path = self.motion(motion, query)
+            path = yield from self.motion(motion, query)
         except Failed:
             # The base came to stand a little beside where the hand could do it.
             here = self.path([self.goal.copy(), self.goal.copy()])
@@ -293,7 +300,7 @@ class Tasks(Mover):
             if not self.world.model.drives or path is here:
                 raise
             yield from self.drive(path, person)
-            path = self.motion(motion.part(), query)
+            path = yield from self.motion(motion.part(), query)
         yield from self.follow(path, person, self.keeps(thing))
         yield from self.pause(self.options.reaction())
         if self.options.refuses(person):
@@ -302,10 +309,10 @@ class Tasks(Mover):
         world.carried_by[thing] = (person, world.pose(thing)[0] - world.data.mocap_pos[at])
         released = self.beliefs.held_pose(thing)
         self.beliefs.hand = None
-        yield from self.grip(False, 0.8)
         self.beliefs.rests(thing, None, None)
         self.beliefs.saw(thing, *released)
         self.beliefs.given[thing] = person
+        yield from self.grip(False, 0.8)
         self.observer.own.moved.add(thing)
         yield from self.straight(-0.05 * world.tip()[1][:, 2], motion)
         yield from self.way_back(path, begun, motion, None)
@@ -321,7 +328,7 @@ class Tasks(Mover):
         world, begun = self.world, self.goal.copy()
         if self.observer.room.is_open(what) is opens:
             return
-        path = self.motion(motion, "%s(%s)" % (query, quoted(what)))
+        path = yield from self.motion(motion, "%s(%s)" % (query, quoted(what)))
         parts, drawn = phases(path.points, world.model.grips), None
         for phase, part in parts:
             if phase == "grip":
@@ -330,8 +337,11 @@ class Tasks(Mover):
                 yield from self.grip(False, 0.6)
             else:
                 if phase == "draw":
+                    # The way here leads through what is opened or closed.
+                    self.trail.clear()
                     drawn, watch = self.drawing(part)
                     yield from self.follow(self.path(part, motion, 0.5), watch=watch)
+                    self.trail.clear()
                     continue
                 yield from self.follow(self.path(part, motion), what)
         if not any(phase == "release" for phase, _ in parts) and any(phase == "grip" for phase, _ in parts):
@@ -369,7 +379,7 @@ class Tasks(Mover):
 
     def do_push(self, args, motion):
         what, begun = entity(args["what"]), self.goal.copy()
-        path = self.motion(motion, "push(%s)" % quoted(what))
+        path = yield from self.motion(motion, "push(%s)" % quoted(what))
         yield from self.follow(path)
         yield from self.way_back(path, begun, motion, None)
         self.observer.own.moved.add(what)
@@ -381,14 +391,14 @@ class Tasks(Mover):
         place. Fails with `not_found` where it does not come into view."""
         query = "look(%s)" % quoted(one)
         try:
-            path = self.motion(motion, query, "not_found", self.supposing(one, place))
+            path = yield from self.motion(motion, query, "not_found", self.supposing(one, place))
         except Failed:
             spot = self.beliefs.entities[one].get("pose", {}).get("xyz") if place is None else place
             if spot is None or not self.may_show(one, spot):
                 raise
             if not (yield from self.around(query, one, place, spot, motion)):
                 raise
-            path = self.motion(motion.part(), query, "not_found", self.supposing(one, place))
+            path = yield from self.motion(motion.part(), query, "not_found", self.supposing(one, place))
         yield from self.follow(path)
         yield from self.uncover(one, place, motion)
         yield from self.pause(0.1)

@@ -146,6 +146,29 @@ def test_the_best_fit_of_all_comes_first(kitchen):
     assert seen_as(kitchen, whole, piece)[0] == "mug_1"
 
 
+def test_a_lost_thing_that_is_still_there_is_no_other_one(kitchen):
+    """A hand that closed beside a thing may have pushed it a little. What stands near has no colour in its name."""
+    beliefs = kitchen.beliefs
+    apple, glass = (np.array(beliefs.entities[one]["pose"]["xyz"]) for one in ("apple", "glass_1"))
+    beliefs.saw("glass_1", apple + [0.0, 0.25, 0.0])
+    beliefs.forget("apple")
+    assert seen_as(kitchen, ("green sphere", apple + [0.05, 0.0, -0.02], (0.07, 0.07, 0.06))) == ["apple"]
+    beliefs.told("apple", {"on": "kitchen_table"}, apple)
+    beliefs.saw("glass_1", glass)
+
+
+def test_what_the_hand_holds_is_no_other_thing(kitchen, monkeypatch):
+    beliefs = kitchen.beliefs
+    mug = np.array(beliefs.entities["mug_1"]["pose"]["xyz"])
+    monkeypatch.setattr(beliefs, "in_hand", lambda: ["bottle"])
+    bottle = beliefs.entities["bottle"]["pose"]["xyz"]
+    beliefs.saw("bottle", mug + [0.2, 0.0, 0.0])
+    part = ("red cylinder", mug + [0.2, 0.0, 0.05], (0.07, 0.07, 0.08))
+    assert "mug_1" not in seen_as(kitchen, part)
+    assert seen_as(kitchen, ("red cylinder", mug, (0.08, 0.08, 0.1))) == ["mug_1"]
+    beliefs.saw("bottle", np.array(bottle))
+
+
 def test_a_place_that_was_not_measured_has_no_error(kitchen):
     """Else it would move on with each look at a part of a thing."""
     mug = kitchen.beliefs.entities["mug_1"]["pose"]["xyz"]
