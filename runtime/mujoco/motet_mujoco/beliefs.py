@@ -42,6 +42,8 @@ class Beliefs:
         self.grip = None
         # Things by the people who took them; things that were seen or felt where they are; and where lost things are not.
         self.given, self.seen, self.gone = {}, set(), {}
+        # Where things were believed to be that are not there.
+        self.lost = {}
         # Things in drawers that nobody knows to be open or closed: (drawer, place when it is closed, pose).
         self.drawn = {}
         # How far drawers and doors were seen to be open, as shares of their travel.
@@ -228,7 +230,8 @@ class Beliefs:
         known = self.entities.get(entity)
         if known is not None and entity in self.things():
             self.gone.setdefault(entity, set()).update(known[one] for one in ("on", "in") if one in known)
-            known.pop("pose", None)
+            if "pose" in known:
+                self.lost[entity] = np.array(known.pop("pose")["xyz"])
             self.drawn.pop(entity, None)
             self.rests(entity, None, None)
             self.given.pop(entity, None)

@@ -1,6 +1,7 @@
 """Cameras: colour and depth pictures of the world, rendered without a window."""
 
 import base64
+import functools
 import struct
 import zlib
 
@@ -18,6 +19,7 @@ class Picture:
     def __init__(self, name, colour, depth, position, rotation, focal):
         self.name, self.colour, self.depth = name, colour, depth
         self.position, self.rotation, self.focal = position, rotation, focal
+        self.placed = None
 
     @property
     def centre(self):
@@ -26,11 +28,29 @@ class Picture:
 
     def points(self):
         """Points in the map of all pixels, as an array of rows and columns."""
-        cx, cy = self.centre
-        rows, columns = np.indices(self.depth.shape)
-        ahead = self.depth
-        local = np.stack([(columns - cx) / self.focal * ahead, (rows - cy) / self.focal * ahead, ahead], axis=-1)
-        return local @ self.rotation.T + self.position
+        if self.placed is None:
+            self.placed = (rays(self.depth.shape, self.focal) * self.depth[..., None]) @ self.rotation.T + self.position
+        return self.placed
+
+    def samples(self, step):
+        """Points in the map of each so many-th row and column where something is seen, as rows."""
+        depth = self.depth[::step, ::step]
+        local = rays(self.depth.shape, self.focal)[::step, ::step] * depth[..., None]
+        return local[depth > 0.0] @ self.rotation.T + self.position
+
+    def window(self, corners):
+        """Part of the picture in which something shows, by the corners of a box around it, as rows: slices of rows and
+        columns, and its least and greatest depth in m. None where it is behind the camera."""
+        local = (corners - self.position) @ self.rotation
+        near, far = float(local[:, 2].min()), float(local[:, 2].max())
+        if far <= 0.0:
+            return None
+        if near <= 1e-3:
+            return (slice(None), slice(None)), (near, far)
+        pixels = local[:, :2] / local[:, 2:] * self.focal + np.array(self.centre)
+        low, high = np.floor(pixels.min(axis=0)).astype(int) - 1, np.ceil(pixels.max(axis=0)).astype(int) + 2
+        (left, top), (right, bottom) = np.maximum(low, 0), np.maximum(high, 0)
+        return (slice(top, bottom), slice(left, right)), (near, far)
 
     def shows_behind(self, point, far, frame):
         """True if the picture shows something more than a distance in m behind a point of the map, or nothing there.
@@ -76,6 +96,7 @@ class Camera:
         world, mj = self.world, self.world.model.mj
         if self.renderer is None:
             try:
+                mj.vis.quality.offsamples = 0
                 self.renderer = mujoco.Renderer(mj, HEIGHT, WIDTH)
             except Exception as error:  # each library has exceptions of its own
                 raise NoGraphics("no picture can be rendered (%s); install EGL, or run with --oracle" % error) from None
@@ -87,6 +108,8 @@ class Camera:
         focal = HEIGHT / 2.0 / np.tan(np.radians(mj.cam_fovy[at]) / 2.0)
         # The axes of images: x to the right, y down, z ahead.
         rotation = world.data.cam_xmat[at].reshape(3, 3) @ np.diag([1.0, -1.0, -1.0])
+        # In whole mm, as a depth camera and the protocol have it.
+        depth = np.round(depth * 1000.0).astype(np.uint16) / 1000.0
         return Picture(name, colour, depth, world.data.cam_xpos[at].copy(), rotation, float(focal))
 
     def _render(self, at):
@@ -94,12 +117,23 @@ class Camera:
         renderer, data = self.renderer, self.world.data
         mujoco.mj_camlight(self.world.model.mj, data)
         renderer.update_scene(data, at)
+        # On a CPU, shadows and smooth edges take ten times as long as the picture.
+        renderer.scene.flags[mujoco.mjtRndFlag.mjRND_SHADOW] = 0
         colour = renderer.render().copy()
         renderer.enable_depth_rendering()
         renderer.update_scene(data, at)
         depth = renderer.render().copy()
         renderer.disable_depth_rendering()
         return colour, depth
+
+
+@functools.lru_cache(maxsize=4)
+def rays(shape, focal):
+    """Directions of all pixels in the frame of a camera, 1 m ahead of it."""
+    height, width = shape
+    rows, columns = np.indices(shape)
+    across, down = (columns - (width - 1) / 2.0) / focal, (rows - (height - 1) / 2.0) / focal
+    return np.stack([across, down, np.ones(shape)], axis=-1)
 
 
 def quaternion(rotation):

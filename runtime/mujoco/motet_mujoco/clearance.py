@@ -1,8 +1,10 @@
 """Clearance of configurations in the room as the robot believes it to be: may a path cut a corner there?
 
 The witness of a motion is free of collisions along its legs. Between two legs the robot may go by their corner only
-where this check finds nothing within the distances that the witness keeps.
+where this check finds nothing within the distances that the witness keeps, and no two parts of the robot that touch.
 """
+
+import functools
 
 import mujoco
 import numpy as np
@@ -13,6 +15,8 @@ from .motion import set_targets
 KEEPS = {"base": 0.04, "arm": 0.01}
 # Distance in m by which what is too near anyway may come nearer.
 NEARER = 0.001
+# Distance in m that parts of the robot keep from each other: a little more than motions keep.
+OWN = 0.006
 
 
 class Clearance:
@@ -33,6 +37,9 @@ class Clearance:
             position, quaternion = beliefs.held_pose(held[0])
             self.grip = rotation.T @ (position - place), rotation.T @ matrix(quaternion)
         self.margins = self.margins_of({**KEEPS, **(keeps or {})})
+        # Geoms of the robot and of what it holds.
+        mine = {"robot", self.held} - {None}
+        self.mine = np.array([owner in mine for owner in self.model.geom_owner])
 
     def margins_of(self, keeps):
         """Margin of each geom: that of the base or of the arm, and none of things."""
@@ -58,20 +65,24 @@ class Clearance:
             turned = np.zeros(4)
             mujoco.mju_mat2Quat(turned, np.ascontiguousarray(rotation @ self.grip[1]).ravel())
             data.qpos[at : at + 3], data.qpos[at + 3 : at + 7] = place + rotation @ self.grip[0], turned
-        before, flags = mj.geom_margin.copy(), mj.opt.enableflags
-        mj.geom_margin[:], mj.opt.enableflags = np.maximum(before, self.margins), 0
-        mujoco.mj_fwdPosition(mj, data)
-        mj.geom_margin[:], mj.opt.enableflags = before, flags
-        owner, mine = self.model.geom_owner, ("robot", self.held)
-        found = {}
-        for at in range(data.ncon):
-            one, other = data.contact[at].geom
-            pair = (owner[one], owner[other])
-            is_floor = self.model.floor in (one, other)
-            if not is_floor and (pair[0] in mine) != (pair[1] in mine):
-                bodies = mj.geom_bodyid[one], mj.geom_bodyid[other]
-                found[bodies] = min(found.get(bodies, np.inf), data.contact[at].dist)
+        find_contacts(self.model, data, np.maximum(mj.geom_margin, self.margins))
+        found = {bodies: gap for bodies, gap in own_contacts(self.model, data) if bodies not in together(self.model)}
+        geoms = data.contact.geom
+        is_met = (self.mine[geoms].sum(axis=1) == 1) & ~(geoms == self.model.floor).any(axis=1)
+        for at in np.flatnonzero(is_met):
+            bodies = tuple(mj.geom_bodyid[geoms[at]])
+            found[bodies] = min(found.get(bodies, np.inf), data.contact.dist[at])
         return found
+
+    def touches_itself(self, target):
+        """True if parts of the robot are too near to each other at targets, and nearer than at the start."""
+        before = self.own(self.start[self.model.control_qpos])
+        return any(gap < before.get(bodies, OWN) - 1e-4 for bodies, gap in self.own(target).items())
+
+    def own(self, target):
+        """Pairs of bodies of the robot that are too near to each other at targets, with their distances in m."""
+        owner = self.model.owner
+        return {bodies: gap for bodies, gap in self.near(target).items() if all(owner[one] == "robot" for one in bodies)}
 
     def is_free(self, start, corner, targets):
         """True if at all targets nothing is too near, or at least no nearer than at the start or the corner
@@ -81,6 +92,49 @@ class Clearance:
             permitted[bodies] = min(permitted.get(bodies, np.inf), gap)
         return all(gap >= permitted.get(bodies, np.inf) - NEARER
                    for target in targets for bodies, gap in self.near(target).items())
+
+
+def find_contacts(model, data, margins):
+    """Finds the contacts of a configuration within margins. In the world the robot does not touch itself; here it
+    does."""
+    mj, (own, bodies), flags = model.mj, parts(model), model.mj.opt.enableflags
+    fields = mj.geom_margin, mj.geom_conaffinity, mj.body_conaffinity
+    before = [field.copy() for field in fields]
+    mj.geom_margin[:], mj.opt.enableflags = margins, 0
+    mj.geom_conaffinity[own] |= mj.geom_contype[own]
+    mj.body_conaffinity[bodies] |= mj.body_contype[bodies]
+    mujoco.mj_fwdPosition(mj, data)
+    for field, was in zip(fields, before):
+        field[:] = was
+    mj.opt.enableflags = flags
+
+
+def own_contacts(model, data):
+    """Pairs of bodies of the robot that are too near to each other, with their distances in m. Fingers may close."""
+    geoms, (own, _) = data.contact.geom, parts(model)
+    is_own = np.isin(geoms, own).all(axis=1) & ~np.isin(geoms, list(model.hand_geoms)).all(axis=1)
+    for at in np.flatnonzero(is_own & (data.contact.dist < OWN)):
+        yield tuple(sorted(int(body) for body in model.mj.geom_bodyid[geoms[at]])), data.contact.dist[at]
+
+
+@functools.lru_cache(maxsize=4)
+def parts(model):
+    """Geoms of the robot, and their bodies."""
+    own = [at for at, owner in enumerate(model.geom_owner) if owner == "robot"]
+    return own, sorted({int(body) for body in model.mj.geom_bodyid[own]})
+
+
+@functools.lru_cache(maxsize=4)
+def together(model):
+    """Pairs of bodies of the robot that touch at the start or at home: their shapes overlap there, not the parts."""
+    data, found = mujoco.MjData(model.mj), set()
+    for target in (model.mj.key_ctrl[model.mj.key("start").id], model.posture("home"), model.posture("start")):
+        if target is not None:
+            mujoco.mj_resetDataKeyframe(model.mj, data, model.mj.key("start").id)
+            set_targets(model, data, data.qpos.copy(), target)
+            find_contacts(model, data, model.mj.geom_margin.copy())
+            found.update(bodies for bodies, _ in own_contacts(model, data))
+    return found
 
 
 def matrix(quaternion):

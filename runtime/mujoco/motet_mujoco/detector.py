@@ -1,13 +1,15 @@
 """A detector of things by colour, size and shape, from one picture with depth.
 
 It knows the furniture, as a robot that has a map does, and takes for a thing what stands out from it. It never asks
-the simulator: all that it gets is pixels, the pose of the camera and the scene's fixed solids.
+the simulator: all that it gets is pixels, the pose of the camera and the scene's fixed solids. The driver calls it;
+any other is a process that does what this does:
 
     python -m motet_mujoco.detector     reads pictures as JSON lines (`look` of the driver protocol, with "solids"),
                                         and answers each with a line of detections
 """
 
 import base64
+import itertools
 import json
 import sys
 import zlib
@@ -24,6 +26,8 @@ NEAR_FURNITURE, NEAR_FLOOR = 0.008, 0.02
 JUMP, HUE, SMALLEST = 0.03, 0.09, 40
 # Extent in m of the largest thing.
 LARGEST = 0.6
+# Signs of the corners of a box.
+SIGNS = np.array(list(itertools.product((-1.0, 1.0), repeat=3)))
 # Height in m below its top from which on the side of a round thing shows. Errors in m of the points of a
 # circle up to which what looks round is round, and what looks flat.
 RIM, ROUGH, SMOOTH = 0.006, 0.002, 0.0008
@@ -42,17 +46,15 @@ def detect(picture, solids):
     `xyz`, `rotation` (3 × 3) and `box` (half sides) or `cylinder` (radius, half height)."""
     points = picture.points()
     new = (picture.depth > 0.0) & (points[..., 2] >= NEAR_FLOOR)
-    left = np.flatnonzero(new)
-    rest = points.reshape(-1, 3)[left]
     for solid in solids:
+        shown = picture.window(corners(solid))
+        if shown is None:
+            continue
+        window, (near, far) = shown
+        rest, depth = new[window], picture.depth[window]
         # Only what no solid before has, and what is about there, is looked at closely.
-        about = np.flatnonzero(np.all(np.abs(rest - np.array(solid["xyz"])) <= half_box(solid), axis=-1))
-        mine = about[belongs(rest[about], solid)]
-        if len(mine):
-            new.flat[left[mine]] = False
-            keep = np.ones(len(left), dtype=bool)
-            keep[mine] = False
-            left, rest = left[keep], rest[keep]
+        about = rest & (depth >= near) & (depth <= far)
+        rest[about] = ~belongs(points[window][about], solid)
     labels = components(new, picture.depth, picture.colour)
     counts = np.bincount(labels.ravel())
     found = []
@@ -66,54 +68,67 @@ def detect(picture, solids):
     return found
 
 
-def half_box(solid):
-    """Half of the sides of the box around a solid, along the axes of the map, with all that belongs to it."""
+def corners(solid):
+    """Corners of a box around a solid with all that belongs to it, as rows."""
     half = solid["box"] if "box" in solid else [solid["cylinder"][0]] * 2 + [solid["cylinder"][1]]
-    return np.abs(np.array(solid["rotation"])) @ (np.array(half) + NEAR_FURNITURE) + 1e-9
+    return SIGNS * (np.array(half) + NEAR_FURNITURE + 1e-6) @ np.array(solid["rotation"]).T + np.array(solid["xyz"])
 
 
 def belongs(points, solid):
     """Mask of the points that belong to a solid."""
     local = (points - np.array(solid["xyz"])) @ np.array(solid["rotation"])
     if "box" in solid:
-        return np.all(np.abs(local) <= np.array(solid["box"]) + NEAR_FURNITURE, axis=-1)
+        is_in = np.abs(local) <= np.array(solid["box"]) + NEAR_FURNITURE
+        return is_in[..., 0] & is_in[..., 1] & is_in[..., 2]
     radius, half = solid["cylinder"]
     around = np.hypot(local[..., 0], local[..., 1]) <= radius + NEAR_FURNITURE
     return around & (np.abs(local[..., 2]) <= half + NEAR_FURNITURE)
 
 
 def components(mask, depth, colour):
-    """Connected parts of a mask, cut where depth jumps or the hue changes: an array of labels, 0 outside."""
-    hue, grey = hues(colour)
-    parent = np.arange(mask.size)
-
-    def root(at):
-        while parent[at] != at:
-            parent[at] = parent[parent[at]]
-            at = parent[at]
-        return at
-
+    """Connected parts of a mask, cut where depth jumps or the hue changes: an array of labels, 0 outside, in the order
+    of their first pixels."""
+    labels = np.zeros(mask.shape, dtype=np.int64)
+    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
+    if not len(rows):
+        return labels
+    part = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
+    mask, depth, (hue, grey) = mask[part], depth[part], hues(colour[part])
     height, width = mask.shape
-    index = np.arange(mask.size).reshape(mask.shape)
-    for rows, columns in ((0, 1), (1, 0)):
-        one = (slice(0, height - rows), slice(0, width - columns))
-        two = (slice(rows, height), slice(columns, width))
+    index = np.cumsum(mask.ravel()).reshape(mask.shape) - 1
+    ones, others = [], []
+    for down, right in ((0, 1), (1, 0)):
+        one = (slice(0, height - down), slice(0, width - right))
+        two = (slice(down, height), slice(right, width))
         turn = np.abs(hue[one] - hue[two])
         alike = np.minimum(turn, 1.0 - turn) < HUE
         alike = np.where(grey[one] | grey[two], grey[one] & grey[two], alike)
         joined = mask[one] & mask[two] & (np.abs(depth[one] - depth[two]) < JUMP) & alike
-        for a, b in zip(index[one][joined].tolist(), index[two][joined].tolist()):
-            first, second = root(a), root(b)
-            if first != second:
-                parent[max(first, second)] = min(first, second)
-    flat = mask.ravel()
-    roots = np.zeros(mask.size, dtype=np.int64)
-    for at in np.flatnonzero(flat).tolist():
-        roots[at] = root(at) + 1
-    _, labels = np.unique(roots, return_inverse=True)
-    if not (~flat).any():
-        labels = labels + 1
-    return labels.reshape(mask.shape)
+        ones.append(index[one][joined])
+        others.append(index[two][joined])
+    firsts = joined_firsts(int(index.flat[-1]) + 1, np.concatenate(ones), np.concatenate(others))
+    _, labels[part][mask] = np.unique(firsts, return_inverse=True)
+    labels[part][mask] += 1
+    return labels
+
+
+def joined_firsts(count, ones, others):
+    """For each of so many pixels the first one that pairs connect it with: each takes over the least of its pair, and
+    then of that one, until nothing changes (Shiloach and Vishkin 1982)."""
+    first = np.arange(count)
+    while True:
+        least = np.minimum(first[ones], first[others])
+        before = first.copy()
+        for side in (ones, others):
+            np.minimum.at(first, before[side], least)
+            np.minimum.at(first, side, least)
+        while True:
+            further = first[first]
+            if np.array_equal(further, first):
+                break
+            first = further
+        if np.array_equal(first, before):
+            return first
 
 
 def hues(colour):

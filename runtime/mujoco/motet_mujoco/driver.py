@@ -335,6 +335,9 @@ class Driver:
             for text in self.tasks.planned:
                 self.report("feedback", {"goal": number, "text": text[:1000], "own_motion": True})
             self.tasks.planned.clear()
+            if self.tasks.news and self.protocol >= 2:
+                self.report("detected", {"detections": list(self.tasks.news)})
+            self.tasks.news.clear()
             if outcome is not None:
                 self.end(number, outcome)
         self.faults.tick(self.world, self.people, self.observer.own, self.options.chance, self.world.now - self.offset)

@@ -1,13 +1,13 @@
 """Eyes: what the robot sees, as detections with the ids of what it knows.
 
-By pixels: pictures go to a detector in a process of its own, and what it finds is matched with the things that the
-robot believes to be about there. With `--oracle`, by the truth of the simulator.
+By pixels: pictures go to a detector, another than that by colour and shape in a process of its own, and what it finds
+is matched with the things that the robot believes to be about there. With `--oracle`, by the truth of the simulator.
 """
 
+import copy
 import json
 import os
 import subprocess
-import sys
 
 import mujoco
 import numpy as np
@@ -16,7 +16,7 @@ from . import aim, sight
 from .beliefs import ELSEWHERE
 from .camera import Camera, NoGraphics
 from .chance import Chance
-from .detector import belongs
+from .detector import belongs, detect, wire
 from .model import turned
 from .world import OPENED
 
@@ -43,6 +43,8 @@ STEPS, FINE, LEAF = 5, 41, 0.01
 # Distance in m behind a thing from which on what shows there shows that the thing is gone, and the pixels of the rim
 # of a picture that show nothing of it.
 BEHIND, FRAME = 0.06, 4
+# Motion in m or rad up to which a picture is not taken anew.
+SAME = 2e-4
 
 
 class Eyes:
@@ -54,8 +56,10 @@ class Eyes:
         self.rates = rates or {"error_per_m": 0.0, "miss": 0.0, "confuse": 0.0}
         self.told = {}  # where the host was told that something is
         self.camera = Camera(world)
-        self.command = command or [sys.executable, "-m", "motet_mujoco.detector"]
-        self.process, self.last, self.at, self.sure, self.pictures = None, [], -1.0, set(), []
+        self.command, self.process = command, None
+        self.last, self.at, self.sure, self.pictures = [], -1.0, set(), []
+        # What the last pictures were taken of, what the detector found in them, and how far doors are open in them.
+        self.viewed, self.found, self.shares = None, [], {}
 
     def look(self, name=None):
         """A picture of a camera; of the first without a name."""
@@ -196,7 +200,7 @@ class Eyes:
     def gaps(self, one):
         """Distances in m of the points of the depth pictures from where an entity is believed to be."""
         for picture in self.pictures:
-            gaps = self.beliefs.gaps(one, picture.points()[::GRID, ::GRID][picture.depth[::GRID, ::GRID] > 0.0])
+            gaps = self.beliefs.gaps(one, picture.samples(GRID))
             if gaps is not None:
                 yield gaps
 
@@ -209,12 +213,22 @@ class Eyes:
 
     def opening(self, container):
         """Share of its travel by which a drawer or a door is seen to be open; None if it is not seen."""
+        if container not in self.shares:
+            self.shares[container] = self.measured(container)
+        return self.shares[container]
+
+    def measured(self, container):
+        """The share by which a drawer or a door is open in the pictures."""
         model = self.world.model
         joint, opened, _ = model.doors[container]
         at_body = {body: np.flatnonzero(model.mj.geom_bodyid == model.body_of[body])
                    for body in (container, container + "/door")}
         leaf, data, room = at_body[container + "/door"], mujoco.MjData(model.mj), self.beliefs.room()
-        points = [one.points()[::GRID, ::GRID][one.depth[::GRID, ::GRID] > 0.0] for one in self.pictures]
+        middle, far = room.xpos[model.body_of[container]], sweep(model, container)
+        points = [one[np.linalg.norm(one - middle, axis=1) <= far]
+                  for one in (picture.samples(GRID) for picture in self.pictures)]
+        if sum(map(len, points)) < ENOUGH:
+            return None
         # What is seen of the frame and of the robot itself with what it holds is no leaf.
         for solid in [*self.solids(at_body[container]), *self.own()]:
             points = [one[~belongs(one, solid)] for one in points]
@@ -263,24 +277,40 @@ class Eyes:
 
     def matched(self):
         """What the detector finds in the pictures of all cameras, with the ids of known things."""
-        found, self.pictures = [], []
-        for name in self.world.model.cameras:
-            self.pictures.append(self.camera.look(name))
+        found = []
         for person in self.world.model.people:
             self.beliefs.scan(person)
+        if not self.is_same(self.view()[:1]):
+            self.pictures, self.shares = [self.camera.look(name) for name in self.world.model.cameras], {}
+            self.viewed = None
         self.see_doors()
-        solids = self.solids()
-        for picture in self.pictures:
-            for one in self.ask(dict(picture.message(), solids=solids)):
-                found.extend(self.parts(one))
+        view = self.view()
+        if not self.is_same(view):
+            solids = self.solids()
+            self.viewed, self.found = view, [one for picture in self.pictures for one in self.detect(picture, solids)]
+        for one in copy.deepcopy(self.found):
+            found.extend(self.parts(one))
         held = self.beliefs.in_hand()
         for thing in held:
-            # Where the hand holds it, the robot knows it.
+            # Where the hand holds it, the robot knows it, and what is seen there is no other thing.
             self.beliefs.saw(thing, *self.beliefs.held_pose(thing))
         self.assign(found)
         parts = {one["id"] for one in found}.union(held)
         return [one for one in found if one["id"] is not None
                 or not self.is_part(one, parts | self.larger(one))]
+
+    def view(self):
+        """What pictures are taken of, and what the detector knows of it: positions in the world, and those of doors and
+        people as they are believed to be."""
+        model, data = self.world.model, self.world.data
+        room, doors = self.beliefs.room(), [at for at, _, _ in model.doors.values()]
+        world = np.concatenate([data.qpos, data.mocap_pos.ravel(), data.mocap_quat.ravel()])
+        return [world, np.concatenate([room.qpos[doors], room.mocap_pos.ravel()])]
+
+    def is_same(self, view):
+        """True if the last pictures show a view, or the first parts of one."""
+        return self.viewed is not None and all(
+            np.abs(one - other).max(initial=0.0) < SAME for one, other in zip(view, self.viewed))
 
     def assign(self, found):
         """Gives detections the ids of known things, the best fit first. A piece of a thing that is where it
@@ -351,12 +381,17 @@ class Eyes:
 
     def fits(self, one):
         """Believed things that a detection may be, each with how badly it fits."""
-        position, size = np.array(one["pose"]["xyz"]), np.array(one["extent"])
+        position, size, held = np.array(one["pose"]["xyz"]), np.array(one["extent"]), self.beliefs.in_hand()
+        is_held = self.is_part(one, held)
         for thing in self.beliefs.things():
             entity = self.beliefs.entities[thing]
-            if not painted(entity, one["label"]):
+            if not painted(entity, one["label"]) or (thing in held) is not is_held:
                 continue
             off, like = self.off(entity, position), unlike(size, extent(entity))
+            lost = self.beliefs.lost.get(thing) if off is None else None
+            if lost is not None and np.linalg.norm(position - lost) <= ABOUT:
+                # It is most likely not far from where it was.
+                off = float(np.linalg.norm(position - lost))
             if off is None and np.sort(size)[1] < SLIVER * np.sort(extent(entity))[1]:
                 continue
             if off is not None and off <= ABOUT and like <= UNLIKE or off is None and like <= UNLIKE_ANYWHERE:
@@ -372,8 +407,14 @@ class Eyes:
         support = entity.get("on") or entity.get("in")
         return None if support is None else self.beliefs.gap(support, position)
 
+    def detect(self, picture, solids):
+        """What the detector finds in a picture, as the driver protocol writes it."""
+        if self.command is None:
+            return wire(detect(picture, solids))
+        return self.ask(dict(picture.message(), solids=solids))
+
     def ask(self, message):
-        """The answer of the detector."""
+        """The answer of a detector in a process of its own."""
         if self.process is None or self.process.poll() is not None:
             # The package need not be installed.
             here = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
@@ -439,13 +480,22 @@ class Eyes:
             self.process.wait(timeout=5)
 
 
+def sweep(model, container):
+    """Distance in m from a container within which its leaf stays on all of its way, with what counts as being on it."""
+    mj, at, (_, opened, joint) = model.mj, model.body_of[container + "/door"], model.doors[container]
+    geoms = np.flatnonzero(mj.geom_bodyid == at)
+    leaf = max(float(np.linalg.norm(mj.geom_pos[geom])) + float(mj.geom_rbound[geom]) for geom in geoms)
+    return float(np.linalg.norm(mj.body_pos[at]) + 2.0 * np.linalg.norm(mj.jnt_pos[joint])) + leaf + abs(opened) + LEAF
+
+
 def within(mj, data, geoms, points, near):
     """Points, as rows, that are in one of some boxes, or nearer to it than so many m."""
     found = np.zeros(len(points), dtype=bool)
     for at in geoms:
         if mj.geom_type[at] == mujoco.mjtGeom.mjGEOM_BOX:
             local = (points - data.geom_xpos[at]) @ data.geom_xmat[at].reshape(3, 3)
-            found |= np.all(np.abs(local) <= mj.geom_size[at] + near, axis=1)
+            is_in = np.abs(local) <= mj.geom_size[at] + near
+            found |= is_in[:, 0] & is_in[:, 1] & is_in[:, 2]
     return found
 
 

@@ -9,6 +9,8 @@ STRAIGHT = 0.97
 SHARES = (1.0, 0.75, 0.5, 0.25)
 # Seconds between two checks of a corner that is cut.
 CHECKED = 0.03
+# Distance in m up to which the middle of the base leaves its way in a corner.
+BASE_OFF = 0.003
 # Greatest acceleration of the hand while it holds something, in m/s² and rad/s².
 HELD = (1.0, 3.0)
 
@@ -28,6 +30,11 @@ class Path:
             self.starts.append(now)
             now += stroke.span - overlap
         self.end = now  # time at which the path ends, in s
+        # Targets after the first strokes, each of which ends before the next does.
+        self.reached = [strokes[0].points[0]]
+        for stroke in strokes:
+            self.reached.append(self.reached[-1] + (stroke.points[-1] - stroke.points[0]))
+        self.ends = np.maximum.accumulate([start + stroke.span for start, stroke in zip(self.starts, strokes)])
 
     @property
     def points(self):
@@ -36,9 +43,10 @@ class Path:
 
     def at(self, time):
         """Targets, their rates and their accelerations at a time."""
-        target = self.strokes[0].points[0].copy()
+        first = int(np.searchsorted(self.ends, time, side="right"))
+        target = self.reached[first].copy()
         rate, change = np.zeros((2, len(target)))
-        for start, stroke in zip(self.starts, self.strokes):
+        for start, stroke in zip(self.starts[first:], self.strokes[first:]):
             if time >= start + stroke.span:
                 target += stroke.points[-1] - stroke.points[0]
             elif time > start:
@@ -53,7 +61,7 @@ class Path:
         may be passed: (start of the first stroke, corner, targets) → bool."""
         overlaps, before, rest = [], 0.0, len(self.strokes) - 2
         for at, (one, other) in enumerate(zip(self.strokes, self.strokes[1:])):
-            most, found = longest(one, other, before, model), 0.0
+            most, found = least_off(one, other, longest(one, other, before, model), model), 0.0
             for share in SHARES if most > 0.02 else ():
                 trial = Path(self.strokes, [*overlaps, most * share, *[0.0] * (rest - at)])
                 start = trial.starts[at + 1]
@@ -67,7 +75,7 @@ class Path:
 
     def slower(self, factor):
         """The path in a multiple of its time."""
-        strokes = [Stroke(one.points, one.cruise, one.span * factor, one.ramp * factor) for one in self.strokes]
+        strokes = [one.slower(factor, one.share / factor**2) for one in self.strokes]
         return Path(strokes, [overlap * factor for overlap in self.overlaps])
 
     def to(self, points):
@@ -75,7 +83,7 @@ class Path:
         strokes, first = [], 0
         for one in self.strokes:
             last = first + len(one.points) - 1
-            strokes.append(Stroke(points[first : last + 1], one.cruise, one.span, one.ramp))
+            strokes.append(Stroke(points[first : last + 1], one.cruise, one.span, one.ramp, one.share))
             first = last
         return Path(strokes)
 
@@ -89,7 +97,7 @@ class Path:
         for one in self.strokes:
             legs = min(left, len(one.cruise))
             if legs > 0:
-                strokes.append(Stroke(one.points[: legs + 1], one.cruise[:legs], one.span, one.ramp))
+                strokes.append(Stroke(one.points[: legs + 1], one.cruise[:legs], one.span, one.ramp, one.share))
             left -= legs
         return Path(strokes)
 
@@ -97,12 +105,13 @@ class Path:
 class Stroke:
     """A polyline from rest to rest: even acceleration for the time `ramp`, even speed, even braking.
 
-    `cruise` has the seconds that each leg would take at the greatest speed of all its actuators.
+    `cruise` has the seconds that each leg would take at the greatest speed of all its actuators, and `share` is the
+    part of the greatest acceleration that may be used beside it.
     """
 
-    def __init__(self, points, cruise, span, ramp):
+    def __init__(self, points, cruise, span, ramp, share=1.0):
         self.points = [np.array(point, dtype=float) for point in points]
-        self.cruise, self.span = [float(one) for one in cruise], float(span)
+        self.cruise, self.span, self.share = [float(one) for one in cruise], float(span), share
         self.ramp = min(float(ramp), self.span / 2.0)
         self.passed = np.concatenate([[0.0], np.cumsum(self.cruise)])
 
@@ -117,7 +126,11 @@ class Stroke:
 
     def reversed(self):
         """The same stroke from its end to its start."""
-        return Stroke(self.points[::-1], self.cruise[::-1], self.span, self.ramp)
+        return Stroke(self.points[::-1], self.cruise[::-1], self.span, self.ramp, self.share)
+
+    def slower(self, factor, share):
+        """The same stroke in a multiple of its time, with a share of the greatest acceleration."""
+        return Stroke(self.points, self.cruise, self.span * factor, self.ramp * factor, share)
 
 
 def longest(one, other, taken, model):
@@ -131,10 +144,33 @@ def longest(one, other, taken, model):
     # It brakes for the one and accelerates for the other at once.
     braking = one.at(one.span - one.ramp - 1e-6)[1] / max(one.ramp, 1e-9)
     rising = other.at(other.ramp + 1e-6)[1] / max(other.ramp, 1e-9)
-    most = np.maximum(model.speeds / model.ramps, np.maximum(np.abs(braking), np.abs(rising)))
+    usual = min(one.share, other.share) * model.speeds / model.ramps
+    most = np.maximum(usual, np.maximum(np.abs(braking), np.abs(rising)))
     if np.any(np.abs(rising - braking)[shared] > 1.01 * most[shared]):
         return 0.0
     return max(min(one.ramp, other.ramp, one.span - taken, other.span), 0.0)
+
+
+def least_off(one, other, overlap, model):
+    """An overlap in s of a stroke with the next, or the shorter one with which the base stays near its way."""
+    if not model.drives or overlap <= 0.0:
+        return overlap
+    corner = one.points[-1][:2]
+    ways = [part for part in (corner - one.points[-2][:2], other.points[1][:2] - corner) if np.linalg.norm(part) > 1e-9]
+    if len(ways) < 2:
+        return overlap
+
+    def off(overlap):
+        # How far the base is from the lines of both legs.
+        path = Path([one, other], [overlap])
+        rest = np.array([path.at(time)[0][:2] for time in np.linspace(path.starts[1], one.span, 9)]) - corner
+        units = [way / np.linalg.norm(way) for way in ways]
+        return np.min([np.abs(rest[:, 0] * unit[1] - rest[:, 1] * unit[0]) for unit in units], axis=0).max()
+
+    while off(overlap) > BASE_OFF and overlap > CHECKED:
+        # The way off grows with the square of the overlap.
+        overlap *= min(0.98 * np.sqrt(BASE_OFF / off(overlap)), 0.9)
+    return overlap
 
 
 def trapezoid(time, span, ramp):
@@ -149,9 +185,10 @@ def trapezoid(time, span, ramp):
     return fastest * (time - ramp / 2.0), fastest, 0.0
 
 
-def timed(points, model, share=1.0):
-    """A path at a share of the greatest speeds and accelerations of a model. It stops where its direction changes."""
-    return Path([stroke(part, model, share) for part in straight_parts(points)])
+def timed(points, model, share=1.0, acceleration=None):
+    """A path at shares of the greatest speeds and accelerations of a model; without a second one they are the same. It
+    stops where its direction changes."""
+    return Path([stroke(part, model, share, acceleration) for part in straight_parts(points)])
 
 
 def straight_parts(points):
@@ -168,9 +205,12 @@ def straight_parts(points):
     return parts
 
 
-def stroke(points, model, share):
-    """A stroke at a share of the greatest speeds and accelerations of a model."""
+def stroke(points, model, share, acceleration=None):
+    """A stroke at shares of the greatest speeds and accelerations of a model."""
     speeds, cruise, hardest = np.maximum(model.speeds * share, 1e-6), [], 1e-6
+    acceleration = share if acceleration is None else acceleration
+    # Seconds from rest to these speeds.
+    ramps = model.ramps * share / acceleration
     for before, after in zip(points, points[1:]):
         far = np.abs(np.asarray(after) - before)
         if model.drives:
@@ -179,16 +219,16 @@ def stroke(points, model, share):
         cruise.append(float(np.max(needed)))
         if cruise[-1] > 1e-9:
             # Time to the speed at which the leg takes so long.
-            hardest = max(hardest, float(np.max(needed / cruise[-1] * model.ramps)))
+            hardest = max(hardest, float(np.max(needed / cruise[-1] * ramps)))
     length = sum(cruise)
     if length < 1e-9:
-        return Stroke(points, cruise, 0.0, 0.0)
+        return Stroke(points, cruise, 0.0, 0.0, acceleration)
     fast = max(length, np.sqrt(length * hardest))
     ramp = min(length * hardest / fast, fast)
-    return Stroke(points, cruise, fast + ramp, ramp)
+    return Stroke(points, cruise, fast + ramp, ramp, acceleration)
 
 
-def witnessed(points, path, model, share):
+def witnessed(points, path, model, share, acceleration=None):
     """A path at the times of a witness, whose waypoints have `at` and `ramp`. Parts that go on in a direction take the
     time of the model instead: a witness stops at each of its waypoints."""
     strokes, first = [], 0
@@ -196,9 +236,10 @@ def witnessed(points, path, model, share):
         last = first + len(part) - 1
         if len(part) == 2:
             span = path[last]["at"] - path[first]["at"]
-            strokes.append(Stroke(part, [1.0 if span > 0.0 else 0.0], span, path[last].get("ramp", 0.0)))
+            cruise, ramp = [1.0 if span > 0.0 else 0.0], path[last].get("ramp", 0.0)
+            strokes.append(Stroke(part, cruise, span, ramp, share if acceleration is None else acceleration))
         else:
-            strokes.append(stroke(part, model, share))
+            strokes.append(stroke(part, model, share, acceleration))
         first = last
     return Path(strokes)
 
@@ -219,7 +260,7 @@ def gentle(world, stroke):
     turn = sum(np.linalg.norm(rotation_vector(other[1] @ one[1].T)) for one, other in zip(frames, frames[1:]))
     pace = max(far / HELD[0], turn / HELD[1]) / (stroke.ramp * (stroke.span - stroke.ramp))
     factor = max(1.0, np.sqrt(pace))
-    return Stroke(stroke.points, stroke.cruise, stroke.span * factor, stroke.ramp * factor)
+    return stroke.slower(factor, stroke.share)
 
 
 def frame_at(world, target):
@@ -278,23 +319,24 @@ class Reacher:
         mujoco.mj_kinematics(self.model.mj, data)
         return data.site_xpos[self.model.tip].copy(), data.site_xmat[self.model.tip].reshape(3, 3).copy()
 
-    def solve(self, qpos, target, place, rotation, rounds=60):
+    def solve(self, qpos, target, place, rotation, ends=None, rounds=60):
         """Targets near to given ones with the hand at a pose, or None. `qpos` holds everything else. The base moves
-        only where the arm alone does not get there."""
+        only where the arm alone does not get there. Ends are the least and greatest targets, where they are not those
+        of the robot."""
         if self.model.drives:
             still = self.weights.copy()
             still[:3] = 0.0
-            found = self.solved(still, qpos, target, place, rotation, rounds)
+            found = self.solved(still, qpos, target, place, rotation, ends, rounds)
             if found is not None:
                 return found
-        return self.solved(self.weights, qpos, target, place, rotation, rounds)
+        return self.solved(self.weights, qpos, target, place, rotation, ends, rounds)
 
-    def solved(self, weights, qpos, target, place, rotation, rounds):
+    def solved(self, weights, qpos, target, place, rotation, ends, rounds):
         """Targets as `solve` gives them, with a weight for the motion of each actuator."""
         model, data = self.model, self.data
         mj = model.mj
         target = np.array(target, dtype=float)
-        low, high = limits(model)
+        low, high = ends or limits(model)
         jac_p, jac_r = np.zeros((3, mj.nv)), np.zeros((3, mj.nv))
         for _ in range(rounds):
             set_targets(model, data, qpos, target)
@@ -305,10 +347,13 @@ class Reacher:
             if np.linalg.norm(off) < 1e-4 and np.linalg.norm(turn) < 1e-3:
                 return target
             mujoco.mj_jacSite(mj, data, jac_p, jac_r, model.tip)
-            jacobian = np.vstack([jac_p, jac_r])[:, model.control_qvel] * weights
-            error = np.concatenate([off, turn])
-            step = jacobian.T @ np.linalg.solve(jacobian @ jacobian.T + 1e-4 * np.eye(6), error)
-            target = np.clip(target + weights * np.clip(step, -0.2, 0.2), low, high)
+            jacobian, error, free = np.vstack([jac_p, jac_r])[:, model.control_qvel], np.concatenate([off, turn]), weights
+            for _ in range(2):
+                moves = jacobian * free
+                step = moves.T @ np.linalg.solve(moves @ moves.T + 1e-4 * np.eye(6), error)
+                # What is at its end leaves the rest of the way to the others.
+                free = np.where((target <= low) & (step < 0.0) | (target >= high) & (step > 0.0), 0.0, free)
+            target = np.clip(target + free * np.clip(step, -0.2, 0.2), low, high)
         return None
 
 

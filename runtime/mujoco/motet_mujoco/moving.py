@@ -10,8 +10,9 @@ import mujoco
 import numpy as np
 
 from .clearance import Clearance
-from .motion import Path, frame_at, gentle, near_turn, timed, witnessed
-from .planner import quoted, stand_at
+from .motion import Path, frame_at, gentle, limits, near_turn, timed, witnessed
+from .planner import START, quoted, stand_at
+from .trail import Trail
 
 # Differences in m or rad up to which the robot stands at the beginning of a path.
 BEGINS = 0.05
@@ -38,6 +39,8 @@ STEP = 0.05
 INSIDE = "inside"
 # Seconds before its deadline by which a command is to be done.
 SPARE = 1.0
+# Queries of the postures of the arm.
+POSTURES = {"home": "posture(home)", "ready": "posture(start)"}
 # Seconds that pass for each place of which a plan is tried, so that no answer to the host takes long.
 THINKS = 0.1
 
@@ -67,15 +70,18 @@ class Mover:
         self.goal = world.target.copy()  # targets that the tasks aim at
         self.rate, self.change = np.zeros_like(self.goal), np.zeros_like(self.goal)
         self.lost = 0
+        # The way that the robot came, and whether a motion ended on its way.
+        self.trail, self.is_adrift = Trail(world.model.grips), False
 
     def aim(self, path, elapsed, mask):
         """Aims the actuators of a mask at a path."""
         target, rate, change = path.at(elapsed + self.world.tick / 2.0)
         self.goal[mask], self.rate[mask], self.change[mask] = target[mask], rate[mask], change[mask]
 
-    def path(self, points, speed=1.0):
-        """A path through points at a share of the greatest speeds."""
-        return timed(points, self.world.model, speed)
+    def path(self, points, motion=None, share=1.0):
+        """A path through points in the manner of a command, at a share of its speeds."""
+        motion = motion or Motion(None)
+        return timed(points, self.world.model, motion.speed * share, motion.acceleration * share)
 
     def follow(self, path, what=None, watch=None, keeps=None):
         """Follows a path. Fails with `blocked` where the robot meets something, or falls behind."""
@@ -86,13 +92,14 @@ class Mover:
         if not mask.any():
             return
         elapsed, behind = 0.0, 0
+        led = np.array([at for at in np.flatnonzero(mask) if at not in model.grips], dtype=int)
         while elapsed < path.end:
             self.aim(path, elapsed, mask)
             elapsed += world.tick
             yield
-            off = np.abs(world.data.qpos[model.control_qpos] - self.goal)
-            off[list(model.grips)] = 0.0
-            behind = behind + 1 if off[mask].max() > BLOCKED else 0
+            self.trail.add(self.goal)
+            off = np.abs(world.data.qpos[model.control_qpos[led]] - self.goal[led])
+            behind = behind + 1 if off.max(initial=0.0) > BLOCKED else 0
             if behind > 25:
                 met = self.room.bumped() or what or "something"
                 # What pushes on would push for ever.
@@ -137,47 +144,85 @@ class Mover:
         for _ in range(max(1, int(round(seconds / self.world.tick)))):
             yield
 
-    def straight(self, way, share=0.8):
-        """Moves the hand along a short straight line in the map, as far as it goes."""
-        world = self.world
+    def straight(self, way, motion, share=0.8):
+        """Moves the hand along a short straight line in the map, as far as it goes and the robot does not touch
+        itself."""
+        world, clearance = self.world, Clearance(self.world, self.beliefs)
         place, rotation = world.tip()
         target = self.goal
         for step in range(1, 5):
-            further = world.reacher.solve(world.data.qpos, target, place + way * step / 4.0, rotation)
+            further = self.reaching(target, place + way * step / 4.0, rotation, clearance)
             if further is None:
                 break
             target = further
         target = target.copy()
         for at in world.model.grips:
             target[at] = self.goal[at]
-        yield from self.follow(self.path([self.goal.copy(), target], share))
+        yield from self.follow(self.path([self.goal.copy(), target], motion, share))
+
+    def reaching(self, target, place, rotation, clearance):
+        """Targets near to given ones with the hand at a pose at which the robot does not touch itself, or None. A joint
+        that would bring its parts together stops before, and the others do the rest."""
+        world = self.world
+        found = world.reacher.solve(world.data.qpos, target, place, rotation)
+        if found is None or not clearance.touches_itself(found):
+            return found
+        low, high = (end.copy() for end in limits(world.model))
+        for at in np.flatnonzero(np.abs(found - target) > 1e-6):
+            for share in (0.75, 0.5, 0.25, 0.0):
+                shorter = found.copy()
+                shorter[at] = target[at] + (found[at] - target[at]) * share
+                if not clearance.touches_itself(shorter):
+                    end = high if found[at] > target[at] else low
+                    end[at] = shorter[at]
+                    break
+        found = world.reacher.solve(world.data.qpos, target, place, rotation, (low, high))
+        return None if found is None or clearance.touches_itself(found) else found
 
     def motion(self, motion, query, fail="unreachable", scene=None, thing=None):
         """Path of the motion of a command, from where the robot stands; else of one of its own, in the room as it is
         believed to be unless another is given. A thing is one that it puts down."""
-        witness = motion.witness
-        if witness is not None:
-            points = self.points(witness)
-            if np.abs(points[0] - self.goal)[self.arm_and_base()].max() <= BEGINS:
-                return self.timed(points, witness["path"], motion.speed)
-        follows = "its witness begins elsewhere" if witness is not None else "it has no witness"
+        path = self.sent(motion)
+        if path is not None:
+            return path
+        follows = "its witness begins elsewhere" if motion.witness is not None else "it has no witness"
         scene = scene or self.beliefs.now()
-        witness, why = self.planner.plan(scene, query) if thing is None else self.put_witness(
-            scene, query, thing, self.planner.plan)
+
+        def plan():
+            return self.planner.plan(scene, query) if thing is None else self.put_witness(
+                scene, query, thing, self.planner.plan)
+
+        (witness, why), is_posture = plan(), query.startswith("posture(")
+        if witness is None and (is_posture or START in why[1]):
+            # From here no motion begins.
+            witness = yield from self.come_free(query if is_posture else POSTURES["home"], motion)
+            if witness is not None and not is_posture:
+                yield from self.follow(self.own(witness, motion))
+                scene["robot"] = self.beliefs.now()["robot"]
+                witness, why = plan()
         if witness is None:
             raise Failed(KINDS.get(why[0], fail), why[1])
         self.planned.append("%s, %s" % (query, follows))
         return self.own(witness, motion)
 
-    def timed(self, points, path, speed):
-        """A path at the times of a witness, or without them at a share of the greatest speeds."""
+    def sent(self, motion):
+        """Path of the witness of a command; None without one, or where the robot does not stand at its beginning."""
+        points = None if motion.witness is None else self.points(motion.witness)
+        if points is None or np.abs(points[0] - self.goal)[self.arm_and_base()].max() > BEGINS:
+            return None
+        return self.timed(points, motion.witness["path"], motion)
+
+    def timed(self, points, path, motion):
+        """A path at the times of a witness, or without them in the manner of a command."""
         times = [one.get("at") for one in path]
         has_times = None not in times and all(b >= a for a, b in zip(times, times[1:]))
-        return witnessed(points, path, self.world.model, speed) if has_times else self.path(points, speed)
+        if not has_times:
+            return self.path(points, motion)
+        return witnessed(points, path, self.world.model, motion.speed, motion.acceleration)
 
     def own(self, witness, motion):
         """Path of a witness that was not made for the manner of the command."""
-        path = self.timed(self.points(witness), witness["path"], 1.0)
+        path = self.timed(self.points(witness), witness["path"], Motion(None))
         return path.slower(motion.stretch)
 
     def points(self, witness):
@@ -208,7 +253,7 @@ class Mover:
         heights = (self.raised(points[1], height) for height in RAISES if after is not None)
         lifted = next((one for one in heights if one is not None and self.is_way(start, one, after)), None)
         if lifted is not None:
-            first = self.path([start, lifted, after, *points[3:]], motion.speed).strokes
+            first = self.path([start, lifted, after, *points[3:]], motion).strokes
             strokes[: 1 if len(points) > 2 else 2] = first
         watch = self.keeps(thing, "fell on the way back")
         points = [point for stroke in strokes for point in stroke.points]
@@ -217,32 +262,39 @@ class Mover:
             free -= 1
         if free < len(points):
             # From here on, what the hand holds would touch something on the way that the hand came.
-            yield from self.follow(self.path(points[:free], motion.speed), watch=watch)
+            yield from self.follow(self.path(points[:free], motion), watch=watch)
             if (yield from self.home_again(begun, motion, watch)):
                 return
-            strokes = self.path(points[free - 1 :], motion.speed).strokes
-        if len(strokes) > 1 and self.world.now + self.smooth(Path(strokes)).end > motion.until - SPARE:
-            # There is no time to go back all the way that the base came.
+            strokes = self.path(points[free - 1 :], motion).strokes
+        while len(strokes) > 1 and self.world.now + self.smooth(Path(strokes)).end > motion.until - SPARE:
+            # There is no time to go back all the way that the base came: only as far as the arm has room to fold.
             yield from self.follow(Path(strokes[:1]), watch=watch)
             if (yield from self.home_again(begun, motion, watch)):
                 return
             strokes = strokes[1:]
-            if self.world.now + self.smooth(Path(strokes)).end > motion.until:
-                # What comes next begins here.
-                return
         last, leaves = strokes[-1].points[-1], self.leaves(motion, begun)
         is_left, is_near = np.abs(leaves - last)[self.arm_and_base()].max() <= 1e-3, self.is_way(last, leaves)
         if not is_left and is_near:
-            strokes.extend(self.path([last, leaves], motion.speed).strokes)
+            strokes.extend(self.path([last, leaves], motion).strokes)
         yield from self.follow(Path(strokes), watch=watch)
         if not is_left and not is_near:
             yield from self.stand(leaves, motion, watch)
         yield from self.pause(0.2)
 
+    def draw_back(self, path, begun, motion):
+        """Opens a hand that did not get what it reached for, and brings it back, to where the thing is not hidden by
+        it."""
+        yield from self.grip(False, 0.6)
+        try:
+            yield from self.straight(-0.08 * self.world.tip()[1][:, 2], motion)
+            yield from self.way_back(path, begun, motion, None)
+        except Failed:
+            return
+
     def stand(self, leaves, motion, watch=None):
         """Drives to where a command leaves the robot, if there is a way and time for it. Whoever stands
         behind an open door may have a long way back, and what comes next can begin here as well."""
-        if motion.leaves is None or not self.world.model.drives:
+        if motion.leaves is None or not self.world.model.drives or np.abs(leaves - self.goal)[:3].max() <= 1e-3:
             return
         witness, _ = self.planner.plan(self.beliefs.now(), stand_at(*leaves[:3]))
         path = None if witness is None else self.own(witness, motion)
@@ -276,7 +328,8 @@ class Mover:
         """Targets near to others with the hand higher."""
         world = self.world
         place, rotation = self.frame(point)
-        raised = world.reacher.solve(world.data.qpos, point, place + np.array([0.0, 0.0, height]), rotation)
+        up = np.array([0.0, 0.0, height])
+        raised = self.reaching(point, place + up, rotation, Clearance(world, self.beliefs))
         if raised is not None:
             for at in world.model.grips:
                 raised[at] = point[at]
@@ -308,7 +361,7 @@ class Mover:
             return True
         witness, _ = self.planner.plan(self.beliefs.now(), "posture(home)")
         if witness is None and self.world.model.drives:
-            witness = yield from self.retreat("posture(home)")
+            witness = yield from self.retreat("posture(home)", motion)
         if witness is None:
             return False
         yield from self.follow(self.own(witness, motion), watch=watch)
@@ -400,7 +453,74 @@ class Mover:
         yield from self.follow(best)
         return True
 
-    def retreat(self, query):
+    def from_rest(self, task, motion, anywhere=False):
+        """A task that begins with the arm at rest, or anywhere: where a motion ended on its way, the arm comes back
+        first."""
+        if self.is_adrift and not anywhere:
+            yield from self.fold(motion)
+        begun, is_done = self.goal.copy(), False
+        try:
+            value = yield from task
+            is_done = True
+        finally:
+            arm = self.world.model.arm
+            self.is_adrift |= not is_done and bool(np.abs(self.goal - begun)[arm].max() > BEGINS)
+        return value
+
+    def fold(self, motion):
+        """Brings the arm to where it was before a motion that ended on its way, if it finds a way there."""
+        for query in (POSTURES[self.observer.own.posture], POSTURES["home"]):
+            witness = yield from self.come_free(query, motion)
+            if witness is not None:
+                try:
+                    yield from self.follow(self.own(witness, motion))
+                except Failed:
+                    return
+                self.is_adrift = False
+                return
+
+    def come_free(self, query, motion):
+        """Brings the robot to where a motion begins: opens a hand that holds nothing, and goes back the way that the
+        robot came, or a little aside. Gives the witness of the motion from there, or None where there is none."""
+        yield from self.let_go(motion)
+        witness, _ = self.planner.plan(self.beliefs.now(), query)
+        if witness is not None:
+            return witness
+        held = self.room.held()
+        for left, way in self.trail.back(self.goal):
+            if held and not self.is_way(*way, keeps=TOUCHES):
+                # What the hand holds was not in it as it came.
+                break
+            yield from self.pause(THINKS)
+            witness, _ = self.planner.plan(self.standing(way[-1]), query)
+            if witness is not None:
+                yield from self.follow(self.path(way, motion))
+                del self.trail.points[left:]
+                return witness
+        return (yield from self.retreat(query, motion)) if self.world.model.drives else None
+
+    def let_go(self, motion):
+        """Opens a hand that is not open and holds nothing, as where it closed around something, and draws it back."""
+        grips = self.world.model.grips.items()
+        is_open = all(abs(self.goal[at] - opened) <= 0.1 * abs(closed - opened) for at, (opened, closed) in grips)
+        if is_open or self.room.held():
+            return
+        yield from self.grip(False, 0.6)
+        try:
+            yield from self.straight(-0.08 * self.world.tip()[1][:, 2], motion)
+        except Failed:
+            return
+
+    def standing(self, target):
+        """The room as it is believed to be, with the robot at targets of the actuators."""
+        scene, model = self.beliefs.now(), self.world.model
+        robot = scene["robot"]
+        robot["joints"] = {joint: float(target[model.controls[joint]]) for joint in robot["joints"]}
+        if model.drives:
+            robot["base"] = [float(part) for part in target[:3]]
+        return scene
+
+    def retreat(self, query, motion):
         """Moves the base a little to where it has room for a motion: against the way that the hand points, or to a
         side. Gives the witness of the motion from there, or None where there is no such place."""
         ahead, clearance = self.world.tip()[1][:2, 2], Clearance(self.world, self.beliefs)
@@ -412,12 +532,10 @@ class Mover:
                 between = [self.goal + (target - self.goal) * share for share in np.linspace(0.1, 1.0, 10)]
                 if not clearance.is_free(self.goal, self.goal, between):
                     continue
-                scene = self.beliefs.now()
-                scene["robot"]["base"] = [float(part) for part in target[:3]]
                 yield from self.pause(THINKS)
-                witness, _ = self.planner.plan(scene, query)
+                witness, _ = self.planner.plan(self.standing(target), query)
                 if witness is not None:
-                    yield from self.follow(self.path([self.goal.copy(), target]))
+                    yield from self.follow(self.path([self.goal.copy(), target], motion))
                     return witness
         return None
 
@@ -429,10 +547,19 @@ class Motion:
         command = command or {}
         motions = command.get("motions") or ([command["motion"]] if command.get("motion") else [])
         self.witness = motions[0].get("witness") if motions else None
+        # Values that the motion is about.
+        self.about = motions[0].get("args", []) if motions else []
         self.leaves = command.get("leaves")
         # The time in s of the world by which it has to be done.
         self.until = now + float(command.get("deadline_secs") or np.inf)
         manner = command.get("manner") or {}
         self.speed = float(manner.get("speed", 1.0))
+        self.acceleration = min(self.speed, float(manner.get("acceleration", 1.0)))
         # Times of a path as a multiple of the shortest.
         self.stretch = max(1.0 / self.speed, float(manner.get("acceleration", 1.0)) ** -0.5)
+
+    def part(self):
+        """A motion that is a part of this one: in the same manner, by the same time."""
+        part = copy.copy(self)
+        part.witness, part.about, part.leaves = None, [], None
+        return part

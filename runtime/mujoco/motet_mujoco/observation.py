@@ -1,6 +1,8 @@
 """Answers to queries: facts and measures of a room. The room is the world itself, for judges, or what the robot knows
 of it (`senses.py`)."""
 
+import math
+
 import mujoco
 import numpy as np
 
@@ -25,8 +27,9 @@ class Own:
     def tick(self, world):
         """Counts the way that was driven."""
         base = world.base()
-        self.driven += float(np.hypot(*(base[:2] - self.last[:2])))
-        if np.abs(base - self.last).max() > 1e-4:
+        x, y, yaw = (base - self.last).tolist()
+        self.driven += math.hypot(x, y)
+        if max(abs(x), abs(y), abs(yaw)) > 1e-4:
             self.unmoved = False
         self.last = base
 

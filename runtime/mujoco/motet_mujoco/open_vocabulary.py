@@ -33,7 +33,7 @@ class OpenVocabulary:
         """Detections of the words in a picture, as the driver protocol writes them, the surest first."""
         import torch
 
-        inputs = self.processor(text=[self.words], images=picture.colour, return_tensors="pt")
+        inputs = self.processor(text=[self.words], images=np.array(picture.colour), return_tensors="pt")
         with torch.no_grad():
             outputs = self.model(**inputs)
         # The picture is padded to a square before it is scaled.

@@ -10,6 +10,8 @@ from .model import ModelError, motet
 
 # Clearances of a robot that stands too near to something.
 LEAST = "base=0.01,arm=0.005"
+# Words of an answer about a robot that touches something where it stands.
+START = "at the start"
 # Search budgets of a motion that the usual one did not decide.
 EFFORTS = ("10", "100")
 

@@ -10,11 +10,14 @@ import numpy as np
 from .camera import NoGraphics
 from .eyes import extent
 from .motion import near_turn, phases
-from .moving import INSIDE, THINKS, Failed, Motion, Mover
+from .moving import INSIDE, POSTURES, SPARE, THINKS, Failed, Motion, Mover
 from .observation import AT_PLACE
 from .planner import quoted, stand_at
 from .world import OPENED
 
+# Primitives that do not move the arm, and those that begin with the arm wherever it is: they fold it, or look.
+ARMLESS = ("say", "ask", "choose", "wake_up")
+ANYWHERE = ("home", "start_pose", "detect", "detect_all", "locate", "ground", "inspect")
 # Distance in m from a thing up to which a given point counts as being at it.
 NEAR_GRASP = 0.05
 # Distance in m that a handle moves in the hand at least where its drawer or door is not locked.
@@ -25,8 +28,9 @@ ABOUT_HERE = 2.0
 AIMS = 2
 # Seconds that a look takes once the camera stands still.
 LOOKS = 0.5
-# Distances in m, beyond that of a drive to a person, from which the hand may hold something out.
-OFFERS = (0.0, -0.1, 0.15)
+# Distances in m, beyond that of a drive to a person, from which the hand may hold something out, and turns in rad of the
+# base there. Nearer than a drive leads the base comes last: policies keep a distance from people.
+OFFERS, TURNED = (0.0, 0.15, -0.05, -0.1), (0.0, 0.6, -0.6, 1.2, -1.2)
 
 
 class Tasks(Mover):
@@ -35,6 +39,7 @@ class Tasks(Mover):
     def __init__(self, world, observer, beliefs, planner, eyes, options):
         super().__init__(world, observer, beliefs, planner, options)
         self.eyes, self.said = eyes, []
+        self.news = []  # detections that the host has not been told of yet
         self.answers = list(options.answers)
         self.answered = lambda: None  # called when a person has answered
 
@@ -47,7 +52,9 @@ class Tasks(Mover):
         run = getattr(self, "do_" + command["primitive"], None)
         if run is None:
             return None
-        return run({name: value for name, value in command["args"]}, Motion(command, self.world.now))
+        motion = Motion(command, self.world.now)
+        task = run({name: value for name, value in command["args"]}, motion)
+        return task if command["primitive"] in ARMLESS else self.from_rest(task, motion, command["primitive"] in ANYWHERE)
 
     # Moving.
 
@@ -57,7 +64,7 @@ class Tasks(Mover):
         if motion.witness is None and self.room.is_open(about) and (yield from self.face(about, motion)):
             self.observer.own.visited.update((to, about))
             return
-        path, held = self.motion(motion, "go_to(%s)" % quoted(about)), self.room.held()
+        held, path = self.room.held(), (yield from self.motion(motion, "go_to(%s)" % quoted(about)))
         if held and to in self.world.model.people:
             # The hand may hold it otherwise than whoever planned the way expected.
             path = yield from self.offering(path, held[0], to, motion)
@@ -84,7 +91,7 @@ class Tasks(Mover):
             for aside in (0.0, 0.3, -0.3, 0.8, -0.8):
                 at = angle + aside
                 stand = x + (far + off) * np.cos(at), y + (far + off) * np.sin(at)
-                places.extend((*stand, float(near_turn(at + np.pi + turn, end[2]))) for turn in (0.0, 1.2, -1.2))
+                places.extend((*stand, float(near_turn(at + np.pi + turn, end[2]))) for turn in TURNED)
         for at, (px, py, yaw) in enumerate(places):
             scene["robot"]["base"] = [float(px), float(py), float(yaw)]
             # The host waits for an answer while the world stands still.
@@ -116,23 +123,23 @@ class Tasks(Mover):
         pose = args["to"]["pose"]
         x, y, _ = pose["xyz"]
         yaw = yaw_of(pose["quaternion"])
-        path = self.motion(motion, stand_at(x, y, yaw))
+        path = yield from self.motion(motion, stand_at(x, y, yaw))
         yield from self.drive(path, None)
 
     def do_turn(self, args, motion):
         target = self.goal.copy()
         target[2] += number(args["by"])
-        yield from self.drive(self.path([self.goal.copy(), target], motion.speed), None)
+        yield from self.drive(self.path([self.goal.copy(), target], motion), None)
 
     def do_home(self, _args, motion):
         yield from self.take_posture("home", motion)
 
     def do_start_pose(self, _args, motion):
-        yield from self.take_posture("start", motion)
+        yield from self.take_posture("ready", motion)
 
     def take_posture(self, posture, motion):
-        yield from self.follow(self.motion(motion, "posture(%s)" % posture, "blocked"))
-        self.observer.own.posture = {"home": "home", "start": "ready"}[posture]
+        yield from self.follow((yield from self.motion(motion, POSTURES[posture], "blocked")))
+        self.observer.own.posture, self.is_adrift = posture, False
 
     def do_wake_up(self, _args, _motion):
         yield from self.pause(2.0)
@@ -142,13 +149,14 @@ class Tasks(Mover):
 
     def do_pick(self, args, motion):
         thing = entity(args["object"])
-        side = args.get("from", {}).get("case", "auto")
+        side, begun = args.get("from", {}).get("case", "auto"), self.goal.copy()
         query = "reach(%s)" % quoted(thing) if side == "auto" else "reach(%s, %s)" % (quoted(thing), side)
-        begun = self.goal.copy()
         path = yield from self.grasp(thing, query, motion)
-        yield from self.straight(np.array([0.0, 0.0, 0.06]))
+        yield from self.straight(np.array([0.0, 0.0, 0.06]), motion)
         if not self.room.holds(thing):
             self.beliefs.forget(thing)
+            yield from self.draw_back(path, begun, motion)
+            self.glance()
             raise Failed("slipped", "%s slipped out of the hand" % thing)
         yield from self.way_back(path, begun, motion, thing)
         self.beliefs.rests(thing, None, None)
@@ -194,7 +202,8 @@ class Tasks(Mover):
 
     def grasp(self, thing, query, motion):
         """Reaches a thing and closes the hand around it. Gives the path of the way there."""
-        path = self.motion(motion, query)
+        begun = self.goal.copy()
+        path = yield from self.motion(motion, query)
         points = path.points
         dx, dy = self.options.chance.error(self.options.rates["hand"]["error_m"], "hand", thing)
         path = path.to(self.aside(points, np.array([dx, dy, 0.0])) or points)
@@ -205,8 +214,8 @@ class Tasks(Mover):
             kind, text = ("slipped", "%s is not between the fingers") if self.room.is_touched(thing) else (
                 "not_found", "%s is not where it was expected")
             self.beliefs.forget(thing)
-            yield from self.grip(False, 0.6)
-            yield from self.straight(-0.08 * self.world.tip()[1][:, 2])
+            yield from self.draw_back(path, begun, motion)
+            self.glance()
             raise Failed(kind, text % thing)
         self.beliefs.holds(thing, float(self.world.tip()[0][2]))
         return path
@@ -215,7 +224,7 @@ class Tasks(Mover):
         held = self.room.held()
         by = number(args["by"])
         before = self.world.tip()[0][2]
-        yield from self.straight(np.array([0.0, 0.0, by]))
+        yield from self.straight(np.array([0.0, 0.0, by]), motion)
         if held and not self.room.holds(held[0]):
             self.beliefs.forget(held[0])
             raise Failed("slipped", "%s slipped out of the hand" % held[0])
@@ -247,7 +256,7 @@ class Tasks(Mover):
         world, begun = self.world, self.goal.copy()
         if not self.room.holds(thing):
             raise Failed("slipped", "the hand does not hold %s" % thing)
-        path = self.motion(motion, query, thing=thing)
+        path = yield from self.motion(motion, query, thing=thing)
         approach = phases(path.points, world.model.grips, "draw")[0][1]
         path = path.until(approach)
         yield from self.follow(path, on, self.keeps(thing))
@@ -256,7 +265,7 @@ class Tasks(Mover):
         self.beliefs.hand = None
         self.beliefs.looked(thing, *self.beliefs.falls(thing, on, *released))
         yield from self.grip(False, 0.8)
-        yield from self.straight(-0.08 * world.tip()[1][:, 2])
+        yield from self.straight(-0.08 * world.tip()[1][:, 2], motion)
         yield from self.way_back(path, begun, motion, None)
         self.observer.own.moved.add(thing)
         known = self.beliefs.entities[thing]
@@ -283,15 +292,15 @@ class Tasks(Mover):
             raise Failed("slipped", "the hand does not hold %s" % thing)
         query = "offer(%s, %s)" % (quoted(thing), quoted(person))
         try:
-            path = self.motion(motion, query)
+            path = yield from self.motion(motion, query)
         except Failed:
             # The base came to stand a little beside where the hand could do it.
             here = self.path([self.goal.copy(), self.goal.copy()])
-            path = yield from self.offering(here, thing, person, Motion(None))
+            path = yield from self.offering(here, thing, person, motion.part())
             if not self.world.model.drives or path is here:
                 raise
             yield from self.drive(path, person)
-            path = self.motion(Motion(None), query)
+            path = yield from self.motion(motion.part(), query)
         yield from self.follow(path, person, self.keeps(thing))
         yield from self.pause(self.options.reaction())
         if self.options.refuses(person):
@@ -300,12 +309,12 @@ class Tasks(Mover):
         world.carried_by[thing] = (person, world.pose(thing)[0] - world.data.mocap_pos[at])
         released = self.beliefs.held_pose(thing)
         self.beliefs.hand = None
-        yield from self.grip(False, 0.8)
         self.beliefs.rests(thing, None, None)
         self.beliefs.saw(thing, *released)
         self.beliefs.given[thing] = person
+        yield from self.grip(False, 0.8)
         self.observer.own.moved.add(thing)
-        yield from self.straight(-0.05 * world.tip()[1][:, 2])
+        yield from self.straight(-0.05 * world.tip()[1][:, 2], motion)
         yield from self.way_back(path, begun, motion, None)
 
     def do_open(self, args, motion):
@@ -319,7 +328,7 @@ class Tasks(Mover):
         world, begun = self.world, self.goal.copy()
         if self.observer.room.is_open(what) is opens:
             return
-        path = self.motion(motion, "%s(%s)" % (query, quoted(what)))
+        path = yield from self.motion(motion, "%s(%s)" % (query, quoted(what)))
         parts, drawn = phases(path.points, world.model.grips), None
         for phase, part in parts:
             if phase == "grip":
@@ -327,15 +336,17 @@ class Tasks(Mover):
             elif phase == "release":
                 yield from self.grip(False, 0.6)
             else:
-                share = motion.speed * (0.5 if phase == "draw" else 1.0)
                 if phase == "draw":
+                    # The way here leads through what is opened or closed.
+                    self.trail.clear()
                     drawn, watch = self.drawing(part)
-                    yield from self.follow(self.path(part, share), watch=watch)
+                    yield from self.follow(self.path(part, motion, 0.5), watch=watch)
+                    self.trail.clear()
                     continue
-                yield from self.follow(self.path(part, share), what)
+                yield from self.follow(self.path(part, motion), what)
         if not any(phase == "release" for phase, _ in parts) and any(phase == "grip" for phase, _ in parts):
             yield from self.grip(False, 0.6)
-            yield from self.straight(-0.08 * world.tip()[1][:, 2])
+            yield from self.straight(-0.08 * world.tip()[1][:, 2], motion)
         far, whole = drawn or (1.0, 1.0)
         is_open = world.is_open(what) if self.beliefs.oracle else opens if far >= OPENED * whole else None
         # After a motion that failed, only a look tells how far it came.
@@ -368,7 +379,7 @@ class Tasks(Mover):
 
     def do_push(self, args, motion):
         what, begun = entity(args["what"]), self.goal.copy()
-        path = self.motion(motion, "push(%s)" % quoted(what))
+        path = yield from self.motion(motion, "push(%s)" % quoted(what))
         yield from self.follow(path)
         yield from self.way_back(path, begun, motion, None)
         self.observer.own.moved.add(what)
@@ -380,21 +391,21 @@ class Tasks(Mover):
         place. Fails with `not_found` where it does not come into view."""
         query = "look(%s)" % quoted(one)
         try:
-            path = self.motion(motion, query, "not_found", self.supposing(one, place))
+            path = yield from self.motion(motion, query, "not_found", self.supposing(one, place))
         except Failed:
             spot = self.beliefs.entities[one].get("pose", {}).get("xyz") if place is None else place
             if spot is None or not self.may_show(one, spot):
                 raise
             if not (yield from self.around(query, one, place, spot, motion)):
                 raise
-            path = self.motion(Motion(None), query, "not_found", self.supposing(one, place))
+            path = yield from self.motion(motion.part(), query, "not_found", self.supposing(one, place))
         yield from self.follow(path)
-        yield from self.uncover(one, place, motion.until - LOOKS)
+        yield from self.uncover(one, place, motion)
         yield from self.pause(0.1)
 
-    def uncover(self, one, place, until):
-        """Turns a camera on the hand so that the hand does not hide where an entity should be, if that is
-        done by a time."""
+    def uncover(self, one, place, motion):
+        """Turns a camera on the hand so that the hand does not hide where an entity should be, if there is time
+        for that."""
         if one not in self.beliefs.things():
             return
         known = self.beliefs.entities[one]
@@ -415,8 +426,8 @@ class Tasks(Mover):
                 return
             for grip in self.world.model.grips:
                 target[grip] = self.goal[grip]
-            path = self.path([self.goal.copy(), target])
-            if self.world.now + path.end > until or not self.is_way(self.goal, target):
+            path = self.path([self.goal.copy(), target], motion)
+            if self.world.now + path.end > motion.until - LOOKS or not self.is_way(self.goal, target):
                 return
             try:
                 yield from self.follow(path)
@@ -432,7 +443,15 @@ class Tasks(Mover):
         return not is_shut and bool(np.hypot(*(self.world.base()[:2] - np.array(spot[:2]))) <= ABOUT_HERE)
 
     def seen(self, wanted, motion):
-        """Ids of the entities, of some, that the camera sees now or after it has turned to where they should be."""
+        """Ids of the entities, of some, that the camera sees now or after it has turned to where they should be: by the
+        motion that was sent, where the robot stands at its beginning."""
+        path = self.sent(motion)
+        if path is not None:
+            try:
+                yield from self.follow(path)
+            except Failed:
+                # What shows from here is looked at.
+                pass
         try:
             found = self.eyes.known(wanted)
         except NoGraphics as error:
@@ -443,7 +462,7 @@ class Tasks(Mover):
             has_looked = False
             for place in self.beliefs.supposed(one) or [None]:
                 try:
-                    yield from self.look(one, motion if len(wanted) == 1 else Motion(None), place)
+                    yield from self.look(one, motion if path is None and len(wanted) == 1 else motion.part(), place)
                 except Failed:
                     continue
                 has_looked = True
@@ -457,14 +476,14 @@ class Tasks(Mover):
                 found |= self.eyes.known(wanted)
         return [one for one in wanted if one in found]
 
-    def seen_at(self, place, wanted):
+    def seen_at(self, place, wanted, motion):
         """Ids of the entities, of some, that the camera sees when it looks at a place as a whole."""
         kind = self.beliefs.entities.get(place, {}).get("kind")
         if not wanted or kind not in ("Surface", "Container") or place not in self.world.model.body_of:
             return []
         for spot in self.beliefs.places(place, kind == "Container", 0.05)[:1]:
             try:
-                yield from self.look(INSIDE, Motion(None), spot)
+                yield from self.look(INSIDE, motion.part(), spot)
             except Failed:
                 return []
         seen = self.eyes.known(wanted)
@@ -484,33 +503,38 @@ class Tasks(Mover):
         if len(found) > 1:
             raise Failed("ambiguous", "%d things in view are called %s" % (len(found), args["what"]["text"]))
         self.observer.own.moved.add(found[0])
+        yield from self.leave(motion)
         return {"entity": found[0]}
 
     def do_detect_all(self, args, motion):
         found = yield from self.seen(self.objects(args["what"]["text"]), motion)
         yield from self.pause(0.3)
         self.observer.own.moved.update(found)
+        yield from self.leave(motion)
         return {"list": [{"entity": one} for one in found]}
 
     def do_search(self, args, motion):
-        what = args["what"]["text"]
-        for place in args["around"]["list"]:
-            to = entity(place)
-            if not self.observer.serves(to):
+        what, places = args["what"]["text"], args["around"]["list"]
+        # The place that the motion that was sent leads to.
+        sent = next((one for one in places if one in motion.about), places[0] if places else None)
+        for place in places:
+            to, way = entity(place), motion if place == sent else motion.part()
+            if not self.observer.serves(to) or self.sent(way) is not None:
                 try:
-                    yield from self.do_go({"to": {"entity": to}}, Motion(None))
+                    yield from self.do_go({"to": {"entity": to}}, way)
                 except Failed as failure:
-                    if place is args["around"]["list"][-1]:
+                    if place is places[-1]:
                         raise failure
                     continue
             wanted = self.objects(what)
-            found = yield from self.seen(wanted, Motion(None))
-            found += yield from self.seen_at(to, [one for one in wanted if one not in found])
+            found = yield from self.seen(wanted, motion.part())
+            found += yield from self.seen_at(to, [one for one in wanted if one not in found], motion)
             found = [one for one in found if to in self.room.supports(one) or self.observer.serves(one)]
             if len(found) > 1:
                 raise Failed("ambiguous", "%d things here are called %s" % (len(found), what))
             if found:
                 self.observer.own.moved.add(found[0])
+                yield from self.leave(motion)
                 return {"entity": found[0]}
         raise Failed("not_found", "nothing at these places is called %s" % what)
 
@@ -524,6 +548,7 @@ class Tasks(Mover):
             raise Failed("not_found", "nobody knows where %s is" % one)
         position, quaternion = seen
         w, x, y, z = (float(part) for part in quaternion)
+        yield from self.leave(motion)
         return {"pose": {"xyz": [float(part) for part in position], "quaternion": [x, y, z, w]}}
 
     def do_ground(self, args, motion):
@@ -539,6 +564,24 @@ class Tasks(Mover):
         is_open = self.eyes.sees_open(one)
         if is_open is not None:
             self.beliefs.opened(one, is_open)
+        yield from self.leave(motion)
+
+    def leave(self, motion):
+        """Goes to where a command leaves the robot after a look, if it says so and there is a way and time for it.
+        What is new in view is told first."""
+        leaves = self.leaves(motion, self.goal)
+        if np.abs(leaves - self.goal).max() <= 1e-3:
+            return
+        try:
+            self.news.extend(self.eyes.news())
+        except NoGraphics:
+            pass
+        yield from self.stand(leaves, motion)
+        target = self.goal.copy()
+        target[self.world.model.arm] = leaves[self.world.model.arm]
+        path = self.path([self.goal.copy(), target], motion)
+        if self.world.now + path.end <= motion.until - SPARE and self.is_way(self.goal, target):
+            yield from self.follow(path)
 
     # Talking.
 

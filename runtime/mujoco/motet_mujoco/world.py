@@ -35,6 +35,8 @@ class World:
     def __init__(self, model):
         self.model = model
         self.data = mujoco.MjData(model.mj)
+        self.tick = STEPS * model.mj.opt.timestep  # time in s between two targets
+        self.grips = list(model.grips)
         self.reacher = Reacher(model)
         self.integral = np.zeros(model.mj.nu)
         # Things in the hands of people, and things by the names that the host gave them.
@@ -56,11 +58,6 @@ class World:
         """Time in s since the start."""
         return self.data.time
 
-    @property
-    def tick(self):
-        """Time in s between two targets."""
-        return STEPS * self.model.mj.opt.timestep
-
     def step(self, target=None, rate=None, change=None):
         """Goes on by a tick, with the actuators at a target that moves at a rate with an acceleration: those
         of the middle of the tick."""
@@ -70,9 +67,8 @@ class World:
         rate = np.zeros(model.mj.nu) if rate is None else rate
         # A slow integral holds against weight. It compares the target with the joints at the same time.
         off = self.target - rate * self.tick / 2.0 - data.qpos[model.control_qpos]
-        self.integral = np.clip(self.integral + 4.0 * self.tick * off, -0.02, 0.02)
-        for at in model.grips:
-            self.integral[at] = 0.0
+        self.integral = np.minimum(np.maximum(self.integral + 4.0 * self.tick * off, -0.02), 0.02)
+        self.integral[self.grips] = 0.0
         # The damping of a position servo brakes: led by as much as that, it follows a moving target without a
         # lag. The steps of a tick find the joints half a step before its middle, on average.
         data.ctrl[:] = self.target + self.integral + (model.lag - model.mj.opt.timestep / 2.0) * rate

@@ -13,6 +13,7 @@ from motet_mujoco.model import load
 from motet_mujoco.motion import HELD, Path, gentle, timed, witnessed
 from motet_mujoco.moving import Failed, Motion, Mover
 from motet_mujoco.observation import Observer
+from motet_mujoco.planner import Planner
 from motet_mujoco.world import World
 
 TABLE = SCENES["panda"][0]
@@ -28,6 +29,12 @@ def mover(hsr):
     hsr.reset()
     options = Options(profile("ideal"), Chance(0).seed)
     return Mover(hsr, Observer(hsr), Beliefs(hsr), None, options)
+
+
+def carry(mover, task):
+    """Carries out a task in the world of a mover."""
+    for _ in task:
+        mover.world.step(mover.goal, mover.rate, mover.change)
 
 
 def rates(path):
@@ -203,3 +210,79 @@ def test_a_witness_does_not_open_the_hand_that_holds_a_thing(mover, monkeypatch)
     path = mover.smooth(mover.path([mover.goal.copy(), there]))
     assert np.allclose(path.at(path.end)[0][grips], mover.goal[grips])
     assert abs(path.at(path.end)[0][0] - there[0]) < 1e-6
+
+
+def test_the_hand_rises_without_a_touch_of_the_robot_itself(motet, mover):
+    """The lift of the arm of the HSR goes on up to the head. No motion begins where the robot touches itself; so the
+    other joints do the rest."""
+    controls, planner = mover.world.model.controls, Planner(motet, "hsr")
+    for joint, value in {"arm_lift_joint": 0.6, "arm_flex_joint": -1.31, "wrist_flex_joint": -1.31}.items():
+        mover.goal[controls[joint]] = value
+    mover.world.data.qpos[mover.world.model.control_qpos] = mover.goal
+    mover.world.refresh()
+    before = mover.frame(mover.goal)[0][2]
+    carry(mover, mover.straight(np.array([0.0, 0.0, 0.08]), Motion(None)))
+    assert 0.6 <= mover.goal[controls["arm_lift_joint"]] < 0.64
+    assert mover.frame(mover.goal)[0][2] > before + 0.079
+    assert planner.plan(mover.beliefs.now(), "posture(home)")[1] is None
+
+
+def test_a_corner_on_which_the_robot_touches_itself_is_not_cut(mover):
+    start = mover.world.target.copy()
+    raised = start.copy()
+    raised[mover.world.model.controls["arm_lift_joint"]] = 0.68
+    assert Clearance(mover.world, mover.beliefs).is_free(start, start, [start])
+    assert not Clearance(mover.world, mover.beliefs).is_free(start, start, [raised])
+
+
+@pytest.mark.parametrize("folds_at", [1, 2])
+def test_without_time_for_the_way_back_it_goes_to_where_the_arm_has_room_to_fold(mover, monkeypatch, folds_at):
+    ways, begun = [np.array([0.0, -0.5]), np.array([-0.5, -0.5]), np.array([-0.5, 0.0])], mover.goal.copy()
+    points = [begun]
+    for way in ways:
+        points.append(points[-1].copy())
+        points[-1][:2] = begun[:2] + way
+    path, tries = mover.path(points), []
+    mover.goal[:] = points[-1]
+    mover.world.data.qpos[mover.world.model.control_qpos] = points[-1]
+
+    def home_again(*_):
+        yield
+        tries.append(mover.goal[:2] - begun[:2])
+        return len(tries) == folds_at
+
+    monkeypatch.setattr(mover, "home_again", home_again)
+    carry(mover, mover.way_back(path, begun, Motion({"deadline_secs": 4.0}, mover.world.now), None))
+    assert np.allclose(tries, ways[1::-1][:folds_at], atol=1e-6)
+
+
+def test_a_base_that_holds_something_out_turns_before_it_comes_nearer(motet):
+    """A policy that keeps 0.5 m from people would stop it: a drive to a person ends at 0.6 m."""
+    driver = Driver(load("anymal_z1", "lab", motet), motet, Options(profile("ideal")), oracle=True)
+    tasks, stands = driver.tasks, []
+    witness, _ = tasks.planner.plan(tasks.beliefs.now(), "go_to(user)")
+
+    def ask(scene, _query):
+        stands.append(scene["robot"]["base"])
+        # The hand comes far enough where the base is turned to one side.
+        turn = np.arctan2(3.6 - stands[-1][1], 1.4 - stands[-1][0]) - stands[-1][2]
+        return ("way", None) if 0.5 < turn < 0.7 else (None, ("unknown", "nothing is found"))
+
+    tasks.planner.ask, tasks.planner.plan = ask, lambda *_: (witness, None)
+    for _ in tasks.offering(tasks.own(witness, Motion(None)), "screwdriver", "user", Motion(None)):
+        pass
+    far = [float(np.hypot(x - 1.4, y - 3.6)) for x, y, _ in stands]
+    assert len(far) > 1 and min(far) > far[0] - 1e-3
+
+
+@pytest.mark.parametrize("turn", [0.3, 0.7, 1.2])
+def test_the_base_stays_near_its_way_in_a_corner(hsr, turn):
+    points = [hsr.target.copy() for _ in range(3)]
+    points[1][0] += 1.0
+    points[2][:2] = points[1][:2] + [np.cos(turn), np.sin(turn)]
+    stopping = timed(points, hsr.model)
+    path = stopping.blended(hsr.model, lambda *_: True)
+    legs = [np.linspace(one[:2], other[:2], 2001) for one, other in zip(points, points[1:])]
+    way = np.concatenate(legs)
+    off = [np.linalg.norm(way - path.at(time)[0][:2], axis=1).min() for time in np.arange(0.0, path.end, 0.02)]
+    assert path.end < stopping.end and max(off) <= 0.0035

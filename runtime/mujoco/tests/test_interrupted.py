@@ -1,0 +1,103 @@
+"""Motions that end on their way: the next command begins with the arm at rest, by the way that the robot came."""
+
+import numpy as np
+import pytest
+from motet_mujoco.chance import profile
+from motet_mujoco.driver import Driver, Options
+from motet_mujoco.model import load
+from motet_mujoco.trail import SPACING, Trail
+
+
+@pytest.fixture
+def driver(motet):
+    driver = Driver(load("hsr", "kitchen", motet), motet, Options(profile("ideal")))
+    driver.call = lambda method, **params: getattr(driver, method)(params)
+    driver.call("hello", protocol=2, run="test")
+    return driver
+
+
+def begin(driver, primitive, **args):
+    """Starts a goal; its number."""
+    goal = len(driver.goals) + 1
+    driver.call("start", goal=goal, command={"primitive": primitive, "args": list(args.items())})
+    return goal
+
+
+def carry_out(driver, primitive, patience=90.0, **args):
+    """The outcome of a primitive."""
+    goal, begun = begin(driver, primitive, **args), driver.world.now
+    while driver.goals[goal].state == "running" and driver.world.now - begun < patience:
+        driver.tick()
+    return driver.goals[goal].state
+
+
+def entity(one):
+    return {"entity": one}
+
+
+def at_thing(driver, near):
+    """Lets a pick of the mug go on until the hand is near to it or has closed around it, and ends it there."""
+    assert "success" in carry_out(driver, "go", to=entity("mug_1"))["ended"]
+    goal = begin(driver, "pick", object=entity("mug_1"))
+    while not near():
+        assert driver.goals[goal].state == "running"
+        driver.tick()
+    driver.call("cancel", goal=goal)
+
+
+def reaches(driver, far):
+    return lambda: np.linalg.norm(driver.world.tip()[0] - driver.world.pose("mug_1")[0]) < far
+
+
+def is_home(driver):
+    arm = driver.world.model.arm
+    return np.abs(driver.tasks.goal - driver.world.model.posture("home"))[arm].max() < 0.01
+
+
+def test_the_arm_comes_back_before_the_base_drives(driver):
+    at_thing(driver, reaches(driver, 0.15))
+    assert not is_home(driver)
+    assert "success" in carry_out(driver, "go", to=entity("counter"))["ended"]
+    assert is_home(driver)
+
+
+def test_a_hand_that_was_about_to_close_opens_and_goes_back(driver):
+    grip = next(iter(driver.model.grips))
+    opened, closed = driver.model.grips[grip]
+    closes = 0.5 * abs(closed - opened)
+    at_thing(driver, lambda: reaches(driver, 0.15)() and abs(driver.tasks.goal[grip] - opened) > closes)
+    assert "success" in carry_out(driver, "go", to=entity("counter"))["ended"]
+    assert is_home(driver)
+    assert driver.world.is_on("mug_1", "kitchen_table")
+
+
+def test_a_robot_that_touches_something_goes_back_the_way_it_came(driver):
+    at_thing(driver, reaches(driver, 0.12))
+    place = driver.world.tip()[0] - 0.05 * driver.world.tip()[1][:, 2]
+    driver.beliefs.saw("glass_1", place)
+    assert "at the start" in driver.tasks.planner.plan(driver.beliefs.now(), "posture(home)")[1][1]
+    assert "success" in carry_out(driver, "home")["ended"]
+    assert is_home(driver)
+
+
+def test_a_thing_that_a_person_took_is_no_longer_where_it_was_carried(driver):
+    at_thing(driver, lambda: driver.beliefs.in_hand() == ["mug_1"])
+    assert "success" in carry_out(driver, "go", to=entity("user"))["ended"]
+    goal = begin(driver, "handover", object=entity("mug_1"), to=entity("user"))
+    while "mug_1" not in driver.world.carried_by:
+        driver.tick()
+    driver.call("cancel", goal=goal)
+    believed = np.array(driver.beliefs.entities["mug_1"]["pose"]["xyz"])
+    assert np.linalg.norm(believed - driver.world.pose("mug_1")[0]) < 0.03
+    assert "success" in carry_out(driver, "go", to=entity("kitchen_table"))["ended"]
+
+
+def test_trail_leads_back_with_the_hand_as_it_is():
+    trail = Trail([1])
+    for step in range(11):
+        trail.add(np.array([0.6 * SPACING * step, 1.0]))
+    assert [round(point[0] / SPACING, 1) for point in trail.points] == [0.0, 1.2, 2.4, 3.6, 4.8, 6.0]
+    ways = list(trail.back(np.array([0.6, 0.3])))
+    assert [left for left, _ in ways][-1] == 0
+    for left, way in ways:
+        assert np.allclose(way[0], [0.6, 0.3]) and np.allclose(way[-1], [trail.points[left][0], 0.3])
