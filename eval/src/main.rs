@@ -86,6 +86,7 @@ struct Flags {
     workers: Workers,
     every: Option<usize>,
     seed: Option<u64>,
+    shows_refusals: bool,
     has_pictures: bool,
     only: Vec<String>,
     words: Vec<String>,
@@ -98,6 +99,7 @@ impl Flags {
             let mut value = || args.next().cloned().ok_or_else(|| format!("`{arg}` needs a value"));
             match arg.as_str() {
                 "--json" => flags.only_json = true,
+                "--refusals" => flags.shows_refusals = true,
                 "--planned" => flags.is_planned = true,
                 "--pictures" => flags.has_pictures = true,
                 "--world" => flags.world = Some(value()?),
@@ -197,7 +199,7 @@ fn usage() -> String {
          tasks [FILE…] [--trials N] [TRIALS]\n  \
          world NUMBER [TRIALS]\n  \
          mutations\n  \
-         soundness NUMBER|FILE… [--seed S]\n  \
+         soundness NUMBER|FILE… [--seed S] [--refusals]\n  \
          physics --robot NAME [--scene S] [--kind K] [--profile P] [--seeds N]\n  \
          reach [SCENE|--rooms N --seed S]   (`eval reach --help`)\n\n\
          TRIALS: [--world PROFILE] [--driver kinematic|mujoco] [--planner PLANNER] [--model M]\n        \
@@ -248,7 +250,7 @@ fn run() -> Result<bool, String> {
         }
         _ if flags.is_benched() => return Err(usage()),
         ["soundness", _, ..] => return shown(&sound(&flags, words.get(1..).unwrap_or_default())?, only_json),
-        _ if flags.seed.is_some() => return Err(usage()),
+        _ if flags.seed.is_some() || flags.shows_refusals => return Err(usage()),
         _ => {}
     }
     if words == ["mutations"] {
@@ -395,9 +397,10 @@ fn sound(flags: &Flags, given: &[&str]) -> Result<Report, String> {
             soundness::play(&files.iter().map(read).collect::<Result<Vec<_>, _>>()?, seed, None)?
         }
     };
+    let in_vain = found.refused_in_vain.into_iter().filter(|_| flags.shows_refusals);
     Ok(Report {
         is_good: found.sums.findings.is_empty(),
-        lines: found.findings,
+        lines: in_vain.chain(found.findings).collect(),
         summary: serde_json::to_value(found.sums).map_err(|error| error.to_string())?,
     })
 }

@@ -64,6 +64,8 @@ pub struct Fuzzed {
     pub sums: Sums,
     /// Findings, made small, as text.
     pub findings: Vec<String>,
+    /// Refused policies of which no run breaks a need, as text.
+    pub refused_in_vain: Vec<String>,
 }
 
 /// Policy with a mistake, before it is made small.
@@ -100,7 +102,8 @@ pub fn fuzz_with(
     let parts = workers.spread(domains, |(index, policies)| fuzz_domain((seed, index), policies, fault));
     let (mut fuzzed, mut found) = (Fuzzed::default(), Vec::new());
     for part in parts {
-        let (sums, more) = part?;
+        let (sums, more, in_vain) = part?;
+        fuzzed.refused_in_vain.extend(in_vain);
         fuzzed.sums.add(&sums);
         found.extend(more);
     }
@@ -183,12 +186,13 @@ fn fuzz_domain(
     (seed, index): (u64, u64),
     count: usize,
     fault: Option<SeededFault>,
-) -> Result<(Sums, Vec<Found>), String> {
+) -> Result<(Sums, Vec<Found>, Vec<String>), String> {
     let first = seed.wrapping_mul(1_000_003).wrapping_add(index);
     let mut dice = SplitMix64::seed_from_u64(first);
     let domain = make::domain(&mut dice);
     let (bench, bare) = (Bench::new(&domain, true, fault)?, Bench::new(&domain, false, None)?);
     let (mut sums, mut found) = (Sums { policies: count, ..Sums::default() }, Vec::new());
+    let mut in_vain = Vec::new();
     for number in 0..count as u64 {
         let policy = make::policy(&mut dice, &domain);
         let base = first.wrapping_mul(997).wrapping_add(number * RUNS) & !3;
@@ -207,13 +211,16 @@ fn fuzz_domain(
                         let findings = bare.run(&graphs, *seed, Needs::Dropped);
                         findings.iter().any(|found| found.mistake == Mistake::Proven)
                     };
-                    sums.refuted_in_vain += usize::from(!seeds.iter().any(breaks));
+                    if !seeds.iter().any(breaks) {
+                        sums.refuted_in_vain += 1;
+                        in_vain.push(domain_text(&domain, true) + &policy_text(&domain, &policy));
+                    }
                 }
             }
             Checked::Other(codes) => *sums.other.entry(codes.join(" ")).or_default() += 1,
         }
     }
-    Ok((sums, found))
+    Ok((sums, found, in_vain))
 }
 
 impl Sums {
