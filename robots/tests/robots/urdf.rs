@@ -281,14 +281,14 @@ fn urdf_reader_refuses_documents_beyond_limits() {
     let wide = format!("<robot>{}</robot>", "<a/>".repeat(300_000));
     assert_eq!(read(&wide).1[0].code.0, "M0452");
     // A chain of as many links as fit is no deeper than any other robot.
-    let links: String = (0..40_000).map(|n| format!("<link name='l{n}'/>")).collect();
-    let joints: String = (1..40_000)
+    let links: String = (0..9_000).map(|n| format!("<link name='l{n}'/>")).collect();
+    let joints: String = (1..9_000)
         .map(|n| {
             format!("<joint name='j{n}' type='fixed'><parent link='l{}'/><child link='l{n}'/></joint>", n - 1)
         })
         .collect();
     let (robot, found, _) = read(&format!("<robot>{links}{joints}</robot>"));
-    assert_eq!((found, robot.unwrap().joints.len()), (vec![], 39_999));
+    assert_eq!((found, robot.unwrap().joints.len()), (vec![], 8_999));
 }
 
 #[test]
@@ -450,8 +450,8 @@ fn draft_finds_base_hand_and_camera() {
 
 #[test]
 fn draft_is_linear_in_a_long_chain() {
-    let links: String = (0..20_000).map(|n| format!("<link name='l{n}'/>")).collect();
-    let joints: String = (1..20_000)
+    let links: String = (0..9_000).map(|n| format!("<link name='l{n}'/>")).collect();
+    let joints: String = (1..9_000)
         .map(|n| {
             format!("<joint name='j{n}' type='fixed'><parent link='l{}'/><child link='l{n}'/></joint>", n - 1)
         })
