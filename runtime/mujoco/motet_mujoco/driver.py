@@ -406,8 +406,8 @@ class Driver:
             self.freeze()
         self.tell_grip()
         self.report("ended", {"goal": number, "outcome": outcome})
-        if outcome != "interrupted" and self.goals[number].command["primitive"] not in SPEECH:
-            self.notice()
+        if self.goals[number].command["primitive"] not in SPEECH:
+            self.notice(outcome == "interrupted")
 
     def tell_grip(self):
         """Reports how the hand holds what it holds, if that is new: the pose of the thing in the frame of the tip."""
@@ -421,10 +421,11 @@ class Driver:
         query = {"field": {"entity": thing, "field": "grip"}}
         self.report("observed", {"query": query, "answer": {"value": {"pose": pose}}})
 
-    def notice(self):
-        """Reports what is in view and was not known, or not there."""
+    def notice(self, is_broken_off=False):
+        """Reports what is in view and was not known, or not there; where a command was broken off, also what it left
+        elsewhere out of view: the host does not know how far it came."""
         try:
-            new = self.eyes.news() if self.protocol >= 2 else []
+            new = self.eyes.news(is_broken_off) if self.protocol >= 2 else []
         except NoGraphics:
             return
         if new:

@@ -146,11 +146,12 @@ class Eyes:
             return np.array([*self.world.base()[:2], 1.0])
         return self.world.data.cam_xpos[model.mj.camera(model.cameras[0]).id].copy()
 
-    def news(self):
-        """Detections that the host does not know of: things without an id, and things elsewhere than it was told."""
+    def news(self, has_left=False):
+        """Detections that the host does not know of: things without an id, and things elsewhere than it was told; also
+        of those out of view, if the hand may have left some."""
         new, held = [], self.beliefs.in_hand()
         self.refresh()
-        for one in self.last:
+        for one in [*self.last, *(self.felt() if has_left else [])]:
             place = np.array(one["pose"]["xyz"])
             if one["id"] in held:
                 continue
@@ -169,6 +170,17 @@ class Eyes:
                 self.told[one["id"]] = place
             new.append(one)
         return new
+
+    def felt(self):
+        """Things that are out of view where they were seen or felt last, as detections."""
+        for thing in sorted(self.beliefs.seen - self.sure):
+            known = self.beliefs.entities[thing]
+            if "pose" in known:
+                w, x, y, z = (float(part) for part in turned(known["pose"]))
+                pose = {"xyz": list(known["pose"]["xyz"]), "quaternion": [x, y, z, w]}
+                label = (known.get("names") or [known.get("class") or thing])[0]
+                yield {"label": label, "id": thing, "pose": pose, "confidence": 1.0,
+                       "extent": [float(part) for part in extent(known)]}
 
     def size(self, position):
         """Sides in m of what was last seen at a place, without an id; None where nothing was."""

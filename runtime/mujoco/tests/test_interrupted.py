@@ -92,6 +92,25 @@ def test_a_thing_that_a_person_took_is_no_longer_where_it_was_carried(driver):
     assert "success" in carry_out(driver, "go", to=entity("kitchen_table"))["ended"]
 
 
+def test_what_a_cancelled_step_has_put_down_is_told(driver):
+    """The host does not know how far the step came, and the thing may be out of view."""
+    said = []
+    driver.say = said.append
+    at_thing(driver, lambda: driver.beliefs.in_hand() == ["mug_1"])
+    assert "success" in carry_out(driver, "go", to=entity("counter"))["ended"]
+    goal = begin(driver, "place", object=entity("mug_1"), on=entity("counter"))
+    while driver.beliefs.hand or not driver.tasks.room.is_on("mug_1", "counter"):
+        assert driver.goals[goal].state == "running"
+        driver.tick()
+    said.clear()
+    driver.eyes.refresh = lambda: driver.eyes.sure.clear()
+    driver.eyes.last = []
+    driver.call("cancel", goal=goal)
+    [seen] = [one["params"]["detections"] for one in said if one["method"] == "detected"]
+    assert [one["id"] for one in seen] == ["mug_1"]
+    assert np.linalg.norm(np.array(seen[0]["pose"]["xyz"]) - driver.world.pose("mug_1")[0]) < 0.05
+
+
 def test_trail_leads_back_with_the_hand_as_it_is():
     trail = Trail([1])
     for step in range(11):
