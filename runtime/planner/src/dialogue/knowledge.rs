@@ -355,25 +355,22 @@ fn text(query: &Query) -> Option<String> {
 
 impl Knowledge {
     /// Presumes after a failed step that the object is where it was before, until somebody looks: a hand
-    /// that slipped left it there. The next plan looks before it picks.
-    pub fn presume(&mut self, before: &[ReportedLocation]) {
+    /// that slipped left it there. What was seen since the last step began is where it was seen: a step that
+    /// was cancelled had put it down. The next plan looks before it picks.
+    pub fn presume(&mut self, scene: &Scene, before: &[ReportedLocation]) {
         for known in before {
-            let thing = Pattern::Is(Value::Entity(known.thing.clone()));
-            let mut about = self.facts.iter().rev().filter_map(|(query, truth)| match query {
-                Query::Fact { fluent, args } if fluent == fluents::AT && args.first() == Some(&thing) => {
-                    Some(*truth)
-                }
-                _ => None,
-            });
-            if about.next() != Some(Truth::Unknown) {
+            if self.latest(fluents::AT, &known.thing) != Some(Truth::Unknown) {
                 continue;
             }
-            let place = Pattern::Is(Value::Entity(known.place.clone()));
+            let (relation, place) =
+                self.seen_place(scene, &known.thing).unwrap_or((known.relation, known.place.clone()));
+            let thing = Pattern::Is(Value::Entity(known.thing.clone()));
+            let place = Pattern::Is(Value::Entity(place));
             for fluent in PLACING {
                 let args = vec![thing.clone(), Pattern::Any];
                 self.facts.push((Query::Fact { fluent: fluent.into(), args }, Truth::False));
             }
-            for fluent in [known.relation, fluents::AT] {
+            for fluent in [relation, fluents::AT] {
                 let args = vec![thing.clone(), place.clone()];
                 self.facts.push((Query::Fact { fluent: fluent.into(), args }, Truth::True));
             }

@@ -282,7 +282,7 @@ impl LiveRun<'_, '_> {
         let before = known.places(&self.talk.setting.scene);
         known.learn(engine, self.talk.base());
         midway.learn_midway(engine, self.talk.base());
-        midway.presume(&before);
+        midway.presume(&self.talk.setting.scene, &before);
         let (tells, mode) = (!self.planner.reads_answers(), self.watcher.verifies());
         let line = (said, self.task.clone());
         self.reading = Some(LineReading::start(self.talk, line, (known, midway), tells, mode));

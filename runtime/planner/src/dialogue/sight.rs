@@ -94,6 +94,12 @@ impl Knowledge {
         news
     }
 
+    /// Relation and place of a thing in view, as it was seen there.
+    pub(super) fn seen_place(&self, scene: &Scene, id: &SmolStr) -> Option<(&'static str, SmolStr)> {
+        self.seen.in_view().find(|seen| *seen == id)?;
+        relation(self.seen.over(scene, |_, _| false).entities.get(id)?)
+    }
+
     /// Forgets what is in view, since the robot moves.
     pub(super) fn look_away(&mut self) {
         self.seen.look_away();

@@ -56,7 +56,7 @@ impl Conversation<'_> {
         self.known = known;
         // What was not found is not where it was thought to be.
         if !matches!(end, RunEnd::Failed { kind, .. } if kind == failures::NOT_FOUND) {
-            self.known.presume(before);
+            self.known.presume(&self.setting.scene, before);
         }
         let after = self.known.places(&self.setting.scene);
         self.known.remember_moved(before, &after);
