@@ -8,11 +8,12 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::str::FromStr;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use motet::driver_camera::DriverCamera;
-use motet_geometry::planning::RobotModel;
+use motet_compiler::Geometry;
+use motet_geometry::planning::{RobotModel, SearchBudget};
 use motet_host::journal::{JournalWriter, RunRecorder as JournalObserver, read};
 use motet_host::remote::protocol::Hello;
 use motet_host::remote::{DriverAddress, DriverTimeouts, RemoteDriver};
@@ -76,6 +77,13 @@ pub struct Bench {
 }
 
 impl Bench {
+    /// Motion checks for a built-in robot in physics, as `motet do` has them there.
+    #[must_use]
+    pub fn geometry(&self, robot: &str, scene: &Scene) -> Option<Arc<Geometry>> {
+        let body = builtin::robot(robot).filter(|_| self.driver == DriverKind::Mujoco)?;
+        Some(Arc::new(Geometry::new(&body.robot, &body.urdf, scene, None, SearchBudget::default())))
+    }
+
     /// A world by the name or the file of its profile.
     ///
     /// # Errors

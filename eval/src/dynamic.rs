@@ -130,7 +130,7 @@ fn play(
         robot: setup::robot(robot),
         scene: setup::scene(task.scene),
         domains: Vec::new(),
-        geometry: None,
+        geometry: bench.geometry(robot, &setup::scene(task.scene)),
         options: CheckOptions::default(),
     };
     // Nobody closes a drawer in physics: there it stays open until the robot comes.

@@ -80,13 +80,9 @@ pub fn run(bench: &Bench, case: Case, seed: u64) -> Result<Trial, String> {
     let real = case.real(&told);
     let faults = Faults::from_json(&case.faults()).map_err(|error| error.to_string())?;
     let mut robot_in = bench.robot(&robot, (&told, &real), seed, faults)?;
-    let setting = DialogueSetup {
-        robot,
-        scene: told,
-        domains: Vec::new(),
-        geometry: None,
-        options: CheckOptions::default(),
-    };
+    let geometry = bench.geometry(&case.robot, &told);
+    let setting =
+        DialogueSetup { robot, scene: told, domains: Vec::new(), geometry, options: CheckOptions::default() };
     let mut talk = bench.sighted(Conversation::new(&setting), &robot_in);
     let mut person = Scripted { answers: case.answers(), asked: Vec::new(), questions: Vec::new() };
     let mut planner = Timed::new(bench.planner.make()?);
