@@ -283,9 +283,9 @@ fn way_into_a_zone_that_is_kept_out_of_is_refused() {
     let found = motions(&session, "policy wash for hsr { go(sink) }");
     assert_eq!(found[0].1, Verdict::Proven);
     let said = refusal(&session, "policy wash for hsr keep out of stairs { go(sink) }").0;
-    assert!(said.contains("what `keep out of stairs` forbids"), "{said}");
+    assert!(said.contains("the region that `keep out of stairs` forbids"), "{said}");
     let said = refusal(&session, "policy wash for hsr { keep out of stairs { go(sink) } }").0;
-    assert!(said.contains("what `keep out of stairs` forbids"), "{said}");
+    assert!(said.contains("the region that `keep out of stairs` forbids"), "{said}");
     // The rule ends with its block.
     let after = motions(&session, "policy wash for hsr { keep out of stairs { go(user) } go(sink) }");
     assert!(after.iter().all(|(_, verdict, _)| *verdict == Verdict::Proven), "{after:?}");
@@ -294,7 +294,7 @@ fn way_into_a_zone_that_is_kept_out_of_is_refused() {
 #[test]
 fn distance_is_kept_by_the_whole_motion() {
     let said = refusal(&KITCHEN, "policy come for hsr keep distance(user) >= 1.5 m { go(user) }").0;
-    assert!(said.contains("what `keep distance(user) >= 1.5 m` forbids"), "{said}");
+    assert!(said.contains("the region that `keep distance(user) >= 1.5 m` forbids"), "{said}");
     let found = motions(&KITCHEN, "policy wash for hsr keep distance(user) >= 30 cm { go(sink) }");
     assert_eq!(found[0].1, Verdict::Proven);
 }
@@ -385,7 +385,11 @@ fn poses_of_the_base_that_are_taken_are_refused() {
     assert!(inside.starts_with("M0602 `go_to_pose` cannot perform `stand_at(pose(2.2 m, 0.5 m, 0 deg))`"));
     let kept =
         "policy p for hsr keep distance(kitchen_table) >= 1 m { go_to_pose(pose(1.4 m, 0.5 m, 0 deg)) }";
-    assert!(ask(kept).contains("what `keep distance(kitchen_table) >= 1 m` forbids"), "{}", ask(kept));
+    assert!(
+        ask(kept).contains("the region that `keep distance(kitchen_table) >= 1 m` forbids"),
+        "{}",
+        ask(kept)
+    );
 }
 
 #[test]
