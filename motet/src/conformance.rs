@@ -104,7 +104,7 @@ pub fn check(
             return ControlFlow::Break(());
         }
         let laws = violations.iter().map(|broken| (broken.law.text(), broken.told.clone()));
-        let others = transcript.breaches.into_iter().map(|told| ("a driver reports only what is so", told));
+        let others = transcript.breaches.into_iter().map(|told| ("a driver reports only true facts", told));
         let scene = DriverScene { name, broken: laws.chain(others).collect(), messages: transcript.lines };
         broken += scene.broken.len();
         let goes_on = each(scene);
@@ -119,7 +119,7 @@ pub fn check(
         let told = check_perception(&mut eyes, &[Time::ZERO]);
         let Transcript { lines, breaches, .. } = transcript.take();
         let laws =
-            told.into_iter().chain(breaches).map(|told| ("what a driver sees is of now, and possible", told));
+            told.into_iter().chain(breaches).map(|told| ("a driver's view is current and possible", told));
         let scene = DriverScene { name: "a look", broken: laws.collect(), messages: lines };
         broken += scene.broken.len();
         let _: ControlFlow<()> = each(scene);

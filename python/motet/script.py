@@ -377,7 +377,7 @@ class Robot:
     async def test(self, condition: Any, looks: bool = False) -> bool:
         """Answers whether a condition is known to hold, after an observation where it is unknown.
 
-        With `looks` it is observed whatever is believed: what the hand held may have dropped.
+        With `looks` it is observed whatever is believed: the held thing may have dropped.
         """
         if looks:
             missing = list[Any]()

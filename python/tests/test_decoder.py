@@ -28,7 +28,7 @@ def write(decoder, random, scale):
 
 
 @pytest.mark.parametrize("scale", [0.0, 1.0, 5.0])
-def test_what_is_written_at_random_checks(environment, tokenizer, scale):
+def test_random_policy_checks(environment, tokenizer, scale):
     start = motet.Decoder(environment=environment, tokenizer=tokenizer, budget=500)
     for seed in range(6):
         policy = write(start.clone(), numpy.random.default_rng(seed), scale)

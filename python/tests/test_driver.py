@@ -169,7 +169,7 @@ def test_close_is_a_primitive_and_not_the_end_of_the_driver(robot):
     assert robot.said == ["the end"]
 
 
-def test_what_a_driver_notices_and_no_longer_knows_is_reported(host, robot):
+def test_driver_reports_detections_observations_and_losses(host, robot):
     host.start(1, "search", what={"text": "cup"})
     host.pass_until(1.5)
     assert host.of("not_held") == [{"goal": 1}]

@@ -247,7 +247,7 @@ def test_a_failure_that_the_primitive_does_not_declare_is_told():
     assert any("`go` does not declare `stumbled`, but" in text for text in heard), heard
 
 
-def test_what_a_policy_asks_has_its_measures_and_its_goal():
+def test_asks_has_the_measures_and_the_goal_of_a_policy():
     text = "policy p for hsr achieves on(mug_1, shelf) { if battery() < 20 % { cannot } go(mug_1) pick(mug_1) go(shelf) "
     graph = motet.compile(text + "place(mug_1, shelf) done }", scene="kitchen")
     assert {"battery", "on", "visible"} <= graph.asks

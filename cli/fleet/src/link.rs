@@ -251,7 +251,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_too_large_for_a_message_loses_its_findings() {
+    fn result_too_large_for_a_message_loses_its_findings() {
         let small = json!({"state": "refused", "why": "x", "findings": ["a"]});
         assert_eq!(within_message(small.clone()), small);
         let large =

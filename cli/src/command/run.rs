@@ -373,7 +373,7 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
     let sees = driver.capabilities().detections;
     if guard.is_some() && has_noticed && !sees {
         guard = None;
-        note("what the robot has seen is lost: deferred motions are left to the driver");
+        note("the robot's detections are lost: deferred motions are left to the driver");
     }
     let scene = room.clone().unwrap_or_default();
     let mut paced = paced.with_guard(guard).with_room(room);

@@ -85,7 +85,7 @@ fn serve(args: &ServeArgs, report: &mut Report) -> Result<Exit, CliError> {
     let listener = std::net::TcpListener::bind(args.listen).map_err(cannot)?;
     let address = listener.local_addr().map_err(cannot)?;
     if !args.listen.ip().is_loopback() {
-        note("warning: whoever is on the way can read what is sent: put a proxy with TLS in front");
+        note("warning: the traffic is not encrypted: put a proxy with TLS in front");
     }
     report.out.line(&format!("listening on http://{address}/v1"));
     http::serve(listener, Arc::new(gateway), limits).map_err(cannot)?;

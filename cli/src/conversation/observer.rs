@@ -251,7 +251,7 @@ impl DialogueObserver for RunObserver<'_> {
         let is_paced = control == RunControl::Continue && self.scheduled.is_empty();
         if let Some(until) = self.held_until.filter(|_| is_paced) {
             if self.operator.is_over() && Instant::now() >= until {
-                note("  stopped: nobody is there who could let it go on");
+                note("  stopped: nobody is there to let it go on");
                 return RunControl::Stop;
             }
             if self.pace.1 == Speed::Max {

@@ -190,7 +190,7 @@ impl ModelObserver for ModelLog {
                 self.keep("said", json!({"round": round, "words": words}));
             }
             ModelEvent::Unmet { goal } => {
-                self.show("33", &format!("  does not reach {goal}, a guess at what is wanted"));
+                self.show("33", &format!("  does not reach {goal}, a guess at the goal"));
                 self.keep("unmet", json!({"goal": goal, "certain": false}));
             }
             ModelEvent::Mended { titles } => {

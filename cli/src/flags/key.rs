@@ -61,7 +61,7 @@ fn check_name(variable: &str, flag: &str) -> Result<(), CliError> {
         return Ok(());
     }
     Err(CliError::Advised {
-        problem: format!("what `{flag}` gives is no name of an environment variable"),
+        problem: format!("the value of `{flag}` is no name of an environment variable"),
         help: format!("put the key into a variable and name that: {flag} API_KEY"),
     })
 }

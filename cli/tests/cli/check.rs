@@ -45,7 +45,7 @@ fn place(name: &str) -> Place {
 fn pipes_and_devices_are_read_only_where_they_are_open() {
     let place = place("check_pipes");
     place.shell("mkfifo pipe.motet pipe.jsonl").check(0, &[]);
-    let refused = &["err:is no regular file; give what a pipe says as `-` or `/dev/stdin`"];
+    let refused = &["err:is no regular file; give the output of a pipe as `-` or `/dev/stdin`"];
     for line in [
         "check pipe.motet",
         "check pipe.jsonl",

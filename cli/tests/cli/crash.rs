@@ -170,7 +170,7 @@ fn driver_behind_a_shell_ends_with_its_host() {
 }
 
 #[test]
-fn what_is_nested_too_deep_for_a_journal_is_refused() {
+fn journal_refuses_values_nested_too_deep() {
     if !has_python() {
         return;
     }

@@ -108,7 +108,7 @@ fn rows_of_others_are_linted_in_the_room_that_is_given() {
 }
 
 #[test]
-fn what_cannot_be_used_is_said() {
+fn dataset_reports_unusable_flags_and_files() {
     let place = Place::new("dataset_wrong").file("w.txt", "bring: bring it\n");
     for (line, words) in [
         ("dataset", "--out"),

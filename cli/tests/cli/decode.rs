@@ -14,7 +14,7 @@ fn decode(name: &str, flags: &str, begun: &str) -> crate::support::Ran {
 }
 
 #[test]
-fn what_must_follow_and_what_may() {
+fn decode_prints_bytes_that_must_and_may_follow() {
     let ran = decode("decode_bytes", "", "{\"mo\n");
     ran.check(
         0,

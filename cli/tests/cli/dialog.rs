@@ -63,7 +63,7 @@ fn plans_of_the_paper_are_completed_and_run() {
 }
 
 #[test]
-fn what_cannot_be_done_is_said_with_its_place() {
+fn dialog_reports_errors_with_their_place() {
     let place = Place::new("dialog_wrong")
         .file("juggle.txt", "<user> Entertain me.\n<robot> go to counter, juggle coke\n")
         .file("double.txt", "<user> Bring the coke.\n<robot> go to counter, pick coke, pick bottle\n")
@@ -114,7 +114,7 @@ fn exchange_of_a_request_is_written_and_read_again() {
 }
 
 #[test]
-fn what_steers_a_terminal_is_escaped_in_refusals() {
+fn refusals_escape_control_characters() {
     let place = Place::new("dialog_steering")
         .file("bad.txt", "<user> a\n<robot> fly\u{1b}[2J to \u{9b}moon\u{202e}\n");
     for line in [

@@ -51,7 +51,7 @@ pub(crate) fn odd(then: &str) -> String {
 }
 
 #[test]
-fn what_another_driver_has_no_use_for_is_refused() {
+fn run_refuses_simulator_flags_with_another_driver() {
     let place = Place::new("driver_flags").file("good.motet", GOOD).file("none.json", "{}");
     place.run("drive good.motet --driver tcp://127.0.0.1:4711").check(
         2,
@@ -326,7 +326,7 @@ fn driver_that_dies_or_says_nothing_more_ends_the_run_soon() {
 }
 
 #[test]
-fn what_a_driver_says_neither_steers_the_terminal_nor_fills_it() {
+fn driver_texts_neither_steer_the_terminal_nor_fill_it() {
     if !has_python() {
         return;
     }

@@ -31,7 +31,7 @@ fn grammar_is_printed_in_each_notation() {
 }
 
 #[test]
-fn what_a_server_cannot_take_is_said() {
+fn grammar_reports_limits_of_servers() {
     let place = Place::new("grammar_limits");
     for flags in [
         "--format json-schema --syntax text",

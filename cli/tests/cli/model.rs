@@ -114,7 +114,7 @@ fn server_that_is_not_there_is_said_and_the_builtin_planner_plans_only_if_asked(
 }
 
 #[test]
-fn what_cannot_be_used_is_said_before_anything_is_asked() {
+fn do_reports_unusable_flags_before_it_asks() {
     let place = Place::new("model_flags").file("room.txt", "no image").file("empty.txt", "\n");
     for (flags, words) in [
         ("--planner localhost", "address"),

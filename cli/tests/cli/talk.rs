@@ -114,7 +114,7 @@ fn words_stop_and_hold_a_robot_at_every_speed() {
     let late = ended(&held) - plain;
     assert!((9.5..10.6).contains(&late), "{late} s");
     bring(&["--speed", "max", "--say", "2s: wait"])
-        .check(3, &["err:stopped: nobody is there who could let it go on"]);
+        .check(3, &["err:stopped: nobody is there to let it go on"]);
     bring(&["--speed", "max", "--say", "2s: where is the apple?"])
         .check(0, &["out:The green apple is on the", "out:handover(coke"]);
     for pause in ["go-on", "pause"] {

@@ -21,7 +21,7 @@ fn policy_comes_back_from_its_tree() {
 }
 
 #[test]
-fn what_no_tree_can_say_is_an_error_with_its_place() {
+fn export_btcpp_refuses_constructs_without_a_node() {
     let place = Place::new("trees_refused")
         .file(
             "pauses.motet",

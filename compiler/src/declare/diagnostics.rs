@@ -192,7 +192,7 @@ motet_syntax::mistakes! {
             Unbound::Handler => format!("`{name}` is bound in the `try`, which may have failed before"),
             Unbound::OtherPath => format!("`{name}` is bound on another path, which does not lead here"),
             Unbound::Cleanup => {
-                format!("`{name}` is bound in what the `finally` cleans up, which may have ended before")
+                format!("`{name}` is bound in the step before the `finally`, which may have ended early")
             }
             Unbound::Loop => format!("`{name}` is bound in an `each`, which may have no round"),
             Unbound::Reaction => format!("`{name}` is bound in a reaction, which may never run"),
@@ -428,7 +428,7 @@ motet_syntax::mistakes! {
     message(m) { format!("this robot cannot provide `{}` as declared: {}", m.name, m.why) }
     help(m) {
         let redeclare = format!("declare `{}` again in primitives.motet", m.name);
-        Some(format!("add what is missing to the card, {redeclare}, or remove `{}`", m.name))
+        Some(format!("add the missing part to the card, {redeclare}, or remove `{}`", m.name))
     }
     related(m) { vec![Related::new("declared here", m.at)] }
 

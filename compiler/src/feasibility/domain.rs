@@ -328,7 +328,7 @@ impl<'a> Domain<'a> for MotionChecker<'a> {
             is_so || may_be_unknown
         });
         if self.proof.drops.contains(&(id, truth)) {
-            worlds.lost.get_or_insert(SmolStr::new_static("what the hand held may have dropped"));
+            worlds.lost.get_or_insert(SmolStr::new_static("the held thing may have dropped"));
         }
         self.worlds = worlds;
         self.is_live()
@@ -336,7 +336,7 @@ impl<'a> Domain<'a> for MotionChecker<'a> {
 
     fn await_at(&mut self, _id: StepId, condition: &Condition) {
         if self.worlds.known.iter().any(|it| self.truth(condition, &it.at) == Some(false)) {
-            self.worlds = Worlds::lost(SmolStr::new_static("what was waited for has changed the world"));
+            self.worlds = Worlds::lost(SmolStr::new_static("the world has changed during a wait"));
         }
     }
 

@@ -519,7 +519,7 @@ impl<'a> StepResolver<'a> {
                 (zone, CompareOp::AtMost, Term::Number(0.0))
             }
             KeepKind::Distance { to, at_least } => {
-                let wanted = entity(Some(ir::Kind::ROOT), "what a distance is kept to");
+                let wanted = entity(Some(ir::Kind::ROOT), "the entity of a distance");
                 let to = self.elaborator.term_of(to, wanted);
                 (to, CompareOp::Less, self.elaborator.distance(at_least))
             }

@@ -129,7 +129,7 @@ fn infeasible_motion_whose_failure_is_caught_is_a_warning_and_left_to_the_run() 
 }
 
 #[test]
-fn what_only_the_run_can_tell_is_left_to_it() {
+fn motions_to_unknown_things_are_left_to_the_run() {
     let found = motions(
         &KITCHEN,
         r#"policy tidy for hsr {
@@ -199,7 +199,7 @@ fn after_a_failure_it_is_not_known_where_the_robot_stopped() {
 }
 
 #[test]
-fn what_follows_an_open_drawer_is_answered_with_it_open() {
+fn motions_behind_an_open_drawer_are_computed_with_it_open() {
     let found = motions(
         &KITCHEN,
         "policy look for hsr {
@@ -213,7 +213,7 @@ fn what_follows_an_open_drawer_is_answered_with_it_open() {
 }
 
 #[test]
-fn what_stands_before_a_drawer_is_named() {
+fn refutation_names_an_obstacle_before_a_drawer() {
     let mut scene = kitchen();
     let mut chair = scene.entities["trash"].clone();
     chair.id = "chair".into();
@@ -229,7 +229,7 @@ fn what_stands_before_a_drawer_is_named() {
 }
 
 #[test]
-fn what_a_search_did_not_find_is_a_warning_and_left_to_the_run() {
+fn search_without_a_result_warns_and_leaves_the_motion_to_the_run() {
     let mut scene = kitchen();
     let mut screen = scene.entities["shelf"].clone();
     screen.id = "screen".into();
@@ -248,7 +248,7 @@ fn what_a_search_did_not_find_is_a_warning_and_left_to_the_run() {
 }
 
 #[test]
-fn what_is_reached_is_reachable() {
+fn reach_motion_proves_reachable() {
     let (graph, said) =
         compile(&KITCHEN, "policy take for hsr achieves holding(mug_1) { go(kitchen_table) pick(mug_1) }");
     assert!(errors(&said).is_empty(), "{:?}", errors(&said));
@@ -283,9 +283,9 @@ fn way_into_a_zone_that_is_kept_out_of_is_refused() {
     let found = motions(&session, "policy wash for hsr { go(sink) }");
     assert_eq!(found[0].1, Verdict::Proven);
     let said = refusal(&session, "policy wash for hsr keep out of stairs { go(sink) }").0;
-    assert!(said.contains("what `keep out of stairs` forbids"), "{said}");
+    assert!(said.contains("the region that `keep out of stairs` forbids"), "{said}");
     let said = refusal(&session, "policy wash for hsr { keep out of stairs { go(sink) } }").0;
-    assert!(said.contains("what `keep out of stairs` forbids"), "{said}");
+    assert!(said.contains("the region that `keep out of stairs` forbids"), "{said}");
     // The rule ends with its block.
     let after = motions(&session, "policy wash for hsr { keep out of stairs { go(user) } go(sink) }");
     assert!(after.iter().all(|(_, verdict, _)| *verdict == Verdict::Proven), "{after:?}");
@@ -294,7 +294,7 @@ fn way_into_a_zone_that_is_kept_out_of_is_refused() {
 #[test]
 fn distance_is_kept_by_the_whole_motion() {
     let said = refusal(&KITCHEN, "policy come for hsr keep distance(user) >= 1.5 m { go(user) }").0;
-    assert!(said.contains("what `keep distance(user) >= 1.5 m` forbids"), "{said}");
+    assert!(said.contains("the region that `keep distance(user) >= 1.5 m` forbids"), "{said}");
     let found = motions(&KITCHEN, "policy wash for hsr keep distance(user) >= 30 cm { go(sink) }");
     assert_eq!(found[0].1, Verdict::Proven);
 }
@@ -385,7 +385,11 @@ fn poses_of_the_base_that_are_taken_are_refused() {
     assert!(inside.starts_with("M0602 `go_to_pose` cannot perform `stand_at(pose(2.2 m, 0.5 m, 0 deg))`"));
     let kept =
         "policy p for hsr keep distance(kitchen_table) >= 1 m { go_to_pose(pose(1.4 m, 0.5 m, 0 deg)) }";
-    assert!(ask(kept).contains("what `keep distance(kitchen_table) >= 1 m` forbids"), "{}", ask(kept));
+    assert!(
+        ask(kept).contains("the region that `keep distance(kitchen_table) >= 1 m` forbids"),
+        "{}",
+        ask(kept)
+    );
 }
 
 #[test]

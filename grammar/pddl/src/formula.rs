@@ -229,7 +229,7 @@ pub(crate) fn read_action(
     let mut rest = rest.iter();
     while let Some(key) = rest.next() {
         let Some(value) = rest.next() else {
-            diagnostics.push(key.not("a keyword with what belongs to it").into());
+            diagnostics.push(key.not("a keyword with its value").into());
             return None;
         };
         match key.word().map(SmolStr::as_str) {

@@ -75,7 +75,7 @@ fn write_card(
     writeln!(card, "name = {}", quoted(&name))?;
     writeln!(card, "title = {}", quoted(if urdf.name.is_empty() { &name } else { &urdf.name }))?;
     writeln!(card, "observe_within = \"500 ms\"  # guessed")?;
-    writeln!(card, "# What the robot can tell by itself: guessed.")?;
+    writeln!(card, "# Facts that the robot observes by itself: guessed.")?;
     writeln!(
         card,
         "observes = [\n    \"holding\", \"free\", \"visible\", \"located\", \"reachable\", \"at\", \"near\", \
@@ -115,7 +115,7 @@ fn write_card(
     for (resource, _) in owned.iter().filter(|(_, is_there)| *is_there) {
         writeln!(card, "{resource} = []")?;
     }
-    writeln!(card, "voice = []\n\n# What its driver carries out: guessed.\n[primitives]")?;
+    writeln!(card, "voice = []\n\n# Primitives that its driver carries out: guessed.\n[primitives]")?;
     let driving: &[&str] = if drive == "fixed" { &[] } else { &[primitives::GO] };
     let handling: &[&str] = if parts.hand.is_some() {
         &[primitives::HOME, primitives::START_POSE, primitives::PICK, primitives::PLACE, primitives::HANDOVER]

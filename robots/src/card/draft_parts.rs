@@ -341,15 +341,15 @@ impl DraftBase {
         while let Some(joint) = only(urdf, base.link) {
             let name = urdf.links.get(base.link).map_or("", |link| link.name.as_str());
             if let Some(link) = slid(urdf, base.link) {
-                return Self { link, why: "what joints along x and y move", is_planar: true };
+                return Self { link, why: "moved by joints along x and y", is_planar: true };
             }
             base = match joint.kind {
                 JointKind::Planar => {
-                    return Self { link: joint.child, why: "what a planar joint moves", is_planar: true };
+                    return Self { link: joint.child, why: "moved by a planar joint", is_planar: true };
                 }
-                JointKind::Floating => Self { link: joint.child, why: "what a floating joint moves", ..base },
+                JointKind::Floating => Self { link: joint.child, why: "moved by a floating joint", ..base },
                 JointKind::Fixed if has_word(name, &["world", "map", "odom"]) => {
-                    Self { link: joint.child, why: "what the root carries", ..base }
+                    Self { link: joint.child, why: "carried by the root", ..base }
                 }
                 // A revolute joint on the root is part of an arm, whatever the name of the root.
                 JointKind::Fixed | JointKind::Revolute | JointKind::Continuous | JointKind::Prismatic => {

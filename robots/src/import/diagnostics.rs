@@ -28,7 +28,7 @@ motet_syntax::mistakes! {
     TooManySolids("M0486", Error) { count: usize }
     message(m) { format!("the scene would have {} solids, more than the limit of {MAX_SOLIDS}", m.count) }
     help(_m) {
-        let help = "merge cells of a map with `--coarsen 2` or more, or leave out what is out of reach";
+        let help = "merge cells of a map with `--coarsen 2` or more, or leave out distant parts";
         Some(help.to_owned())
     }
 

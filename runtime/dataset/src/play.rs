@@ -50,7 +50,7 @@ impl DialogueObserver for Change {
 }
 
 /// Reason why a case is not played: nothing would go wrong.
-pub(crate) const IN_VIEW: &str = "what should be missing is in view";
+pub(crate) const IN_VIEW: &str = "the thing that should be missing is in view";
 
 /// Plays a case where the robot was told the scene of a testbed. Gives its turns, or why it did not go as it
 /// was drawn: it came to another end, its goal does not hold, or something that should go wrong was never
@@ -102,7 +102,7 @@ pub(crate) fn play(
     if let Some((fluent, args, holds)) = case.goal.as_ref().filter(|_| !case.is_given_up) {
         let args: Vec<&str> = args.iter().map(smol_str::SmolStr::as_str).collect();
         if driver.borrow().holds(fluent, &args) != Some(*holds) {
-            return Err("what was asked for does not hold at the end");
+            return Err("the goal does not hold at the end");
         }
     }
     if case.policy.is_some() {

@@ -36,7 +36,7 @@ def test_the_corner_of_a_box_is_not_round():
     assert fitted(np.array(corner), "cylinder", 0.06)[2] > SMOOTH
 
 
-def test_what_does_not_show_of_a_box_is_behind_the_side_that_does():
+def test_hidden_part_of_a_box_is_behind_its_visible_side():
     pose = {"xyz": [0.0, 2.0, 0.5], "rpy": [0.0, 0.0, 0.0]}
     book = {"id": "book", "shape": {"box": [0.14, 0.04, 0.21]}, "pose": pose}
     seen = {"pose": {"xyz": [0.0, 1.985, 0.5]}, "extent": [0.14, 0.01, 0.21]}

@@ -46,7 +46,7 @@ def drive(motet):
         host.process.kill()
 
 
-def test_what_pixels_do_not_find_is_not_found(drive, room):
+def test_inspect_does_not_find_a_thing_that_pixels_do_not_show(drive, room):
     # In the picture the mug is red.
     host = drive("hsr", "kitchen", "--told", room(mug_1={"names": ["blue mug"]}))
     host.carry_out("go", to=entity("kitchen_table"))
@@ -193,7 +193,7 @@ def stand(driver, x, y, yaw=0.0, tilt=-0.5):
         driver.tick()
 
 
-def test_what_is_moved_behind_the_robot_is_not_known(behind):
+def test_beliefs_do_not_change_behind_the_robot(behind):
     world = behind.world
     stand(behind, 0.9, 0.4, np.pi)
     yes, no = {"truth": True}, {"truth": False}
@@ -222,7 +222,7 @@ def test_a_drawer_that_is_opened_behind_the_robot_is_closed_until_it_looks(behin
     assert truths(behind, "open", "drawer_1") == (yes, yes)
 
 
-def test_what_the_fingers_lose_is_noticed_by_their_joints(behind, motet):
+def test_finger_joints_notice_a_lost_thing(behind, motet):
     """The hand is told nothing of contacts: its fingers close on nothing."""
     world, yes, no = behind.world, {"truth": True}, {"truth": False}
     [(_, witness)] = verdicts(motet, "hsr", "kitchen", "reach(mug_1)")
@@ -273,7 +273,7 @@ def test_the_truth_is_for_judges_alone(behind):
     assert "--oracle" in said[0]["error"]["message"]
 
 
-def test_what_the_robot_believes_is_not_read_off_the_world(behind, monkeypatch):
+def test_beliefs_are_not_read_off_the_world(behind, monkeypatch):
     """What is in its hand it knows by its fingers and by where it closed them, and doors by pixels."""
     carry_out_by(behind, 1, "go", to="kitchen_table")
     carry_out_by(behind, 2, "pick", object="mug_1")
@@ -402,7 +402,7 @@ def test_fingers_feel_thin_things(motet, robot):
         assert not world.is_gripping(), query
 
 
-def test_what_falls_into_a_bin_lies_in_it(motet):
+def test_thing_dropped_into_a_bin_lies_in_it(motet):
     """The hand lets it go above the rim, and the camera does not show the bottom."""
     driver = Driver(load("hsr", "living_room", motet), motet, Options(), judged=True)
     try:

@@ -62,7 +62,7 @@ def test_trials_with_errors_have_seeds_and_intervals(motet, capsys):
     assert again[:-1] == trials
 
 
-def test_what_was_held_is_carried(motet):
+def test_held_thing_is_carried(motet):
     """A drive with what a grasp holds drops nothing, and one with nothing has nothing to drop."""
     [(query, witness)] = judge.verdicts(motet, "hsr", "kitchen", "reach(apple)")
     world = World(load("hsr", "kitchen", motet))
@@ -86,7 +86,7 @@ def test_trials_are_the_same_whatever_the_number_of_processes_and_shards(motet, 
             judge.main(["--robot", "panda", *wrong])
 
 
-def test_what_is_held_at_the_start_is_put_down(motet, capsys):
+def test_thing_held_at_the_start_is_put_down(motet, capsys):
     """The fingers press on a thing all the way, also where a witness says how far apart they are."""
     assert judge.main(["--robot", "panda", "--kind", "put", "--format", "json", "--motet", motet]) == 0
     share = json.loads(capsys.readouterr().out.splitlines()[-1])["shares"]["put"]

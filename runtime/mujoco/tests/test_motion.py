@@ -140,7 +140,7 @@ def test_a_thing_in_the_hand_is_carried_gently(motet):
     assert strongest(slow) < 1.5 * HELD[0]
 
 
-def test_what_is_dropped_is_where_nobody_knows(mover):
+def test_dropped_thing_has_no_known_place(mover):
     check = mover.keeps("mug_1")
     with pytest.raises(Failed) as failed:
         for _ in range(20):
@@ -167,7 +167,7 @@ def test_a_search_for_a_place_lets_time_pass(motet):
     assert all(after - before > 0.05 for before, after in zip(times, times[1:]))
 
 
-def test_what_is_near_anyway_comes_no_nearer(mover):
+def test_clearance_holds_near_obstacles_no_nearer(mover):
     """A robot that stands at the table may stay as near to it, and not drive through it."""
     from motet_mujoco.clearance import Clearance
 

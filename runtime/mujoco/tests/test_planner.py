@@ -32,6 +32,6 @@ def test_a_robot_that_stands_too_near_moves_with_less_clearance(tmp_path):
     assert found == {"path": []}
 
 
-def test_where_there_is_no_motion_the_planner_says_why(tmp_path):
+def test_planner_gives_the_reason_without_a_motion(tmp_path):
     found, why = planner(tmp_path, "no such flag", "the drawer is closed").plan({}, "put(mug_1, drawer_1)")
     assert found is None and why == ("unknown", "the drawer is closed")

@@ -35,7 +35,7 @@ def driver(motet):
     return Driver(load("hsr", "kitchen", motet), motet, Options(profile("ideal")))
 
 
-def test_what_lies_in_a_drawer_is_where_it_was_once_the_drawer_is_seen(driver):
+def test_beliefs_move_drawer_contents_once_the_drawer_is_seen(driver):
     """A hand that lost the handle says nothing about how far the drawer came; the next look does."""
     beliefs, way = driver.beliefs, driver.world.model.drawn("drawer_1")
     at = np.array([3.4, -1.7, 0.6])

@@ -18,7 +18,7 @@ pub enum ProjectError {
     #[error("`{}` is a folder; expected a file", path.display())]
     Folder { path: PathBuf },
     /// The path of a file names a named pipe, a device or a socket, which need not end.
-    #[error("`{}` is no regular file; give what a pipe says as `-` or `/dev/stdin`", path.display())]
+    #[error("`{}` is no regular file; give the output of a pipe as `-` or `/dev/stdin`", path.display())]
     Irregular { path: PathBuf },
     /// A file exceeds the size limit of the readers.
     #[error("`{}` is larger than {} MiB", path.display(), MAX_BYTES >> 20)]

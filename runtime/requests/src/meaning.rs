@@ -347,11 +347,11 @@ impl Reader<'_> {
                 let (what, first, then) = (self.called(thing), self.whom(there), self.whom(to));
                 if role == Some(Role::Person) {
                     unfit(format!(
-                        "what I give to {first} I cannot take back: the {what} goes there or to {then}"
+                        "I cannot take a thing back from {first}: the {what} goes there or to {then}"
                     ))
                 } else if self.bins().contains(there) {
                     unfit(format!(
-                        "what is thrown away stays there: the {what} goes into {first} or to {then}"
+                        "a thing in the bin stays there: the {what} goes into {first} or to {then}"
                     ))
                 } else {
                     Ok(true)

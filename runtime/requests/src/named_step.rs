@@ -301,7 +301,7 @@ impl Intent {
         let before = self.aims.len();
         self.aims.retain(|aim| !things.iter().any(|thing| aim.mentions(thing)));
         if self.aims.len() == before {
-            return Err(RequestError::Unfit { why: "that is no part of what I was asked for".to_owned() });
+            return Err(RequestError::Unfit { why: "that is no part of the request".to_owned() });
         }
         Ok(self)
     }

@@ -63,7 +63,7 @@ impl Reader<'_> {
                 let known =
                     if let [_] = found.as_slice() { "one".to_owned() } else { found.len().to_string() };
                 return Err(RequestError::Unfit {
-                    why: format!("I know of only {known} of what you call `{}`", phrase.said),
+                    why: format!("I know of only {known} of the things that you call `{}`", phrase.said),
                 });
             }
             Which::Count(1) | Which::Any => vec![found],

@@ -232,7 +232,7 @@ fn check_observations<'a>(binding: &Binding, observed: impl Iterator<Item = &'a 
         let bound = binding.facts.get(*name).or_else(|| binding.measures.get(*name));
         match bound {
             Some(bound) => report.good(name, &format!("{} on {}", bound.value, bound.topic)),
-            None if is_believed(name) => report.none(name, "by what the driver believes"),
+            None if is_believed(name) => report.none(name, "by the beliefs of the driver"),
             None => report.none(name, "unknown"),
         }
     }

@@ -285,7 +285,7 @@ impl Driver {
         Some(DriverReport::Moved(MovedParams { at: None, base, joints, things: Vec::new() }))
     }
 
-    /// Answer to a query: by a bound topic, or by what the driver believes.
+    /// Answer to a query: by a bound topic, or by the beliefs of the driver.
     fn observe(&mut self, query: &Query) -> Answer {
         let (bound, args) = match query {
             Query::Fact { fluent, args } => (self.robot.binding.facts.get(fluent.as_str()), words(args)),

@@ -482,10 +482,10 @@ close = {}
     node = Node(Types(), 0)
     with RobotProcess(binding="nav.toml"):
         told = compared(own)
-    assert "✗ /cmd_vel read as geometry_msgs/Twist, and bound as geometry_msgs/TwistStamped; what the driver sends is not heard" in told
+    assert "✗ /cmd_vel read as geometry_msgs/Twist, and bound as geometry_msgs/TwistStamped; nobody hears the driver" in told
     part = "✗ /gripper_controller/gripper_cmd gripper_controller/gripper_cmd/_action/send_goal is read as " \
         "control_msgs/GripperCommand_SendGoal_Request, and bound as control_msgs/FollowJointTrajectory_SendGoal_Request; " \
-        "what the driver sends is not heard"
+        "nobody hears the driver"
     assert part in told, told
     assert len([line for line in told if "/gripper_controller/gripper_cmd " in line]) == 5, told
     assert "✗ /detections sent as vision_msgs/Detection3DArray, and bound as std_msgs/Bool; the driver does not hear it" in told

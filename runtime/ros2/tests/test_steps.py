@@ -133,7 +133,7 @@ def test_an_answer_that_names_a_thing_is_that_thing(binding):
             assert ended == wanted or wanted in ended["failure"]["text"], ended
 
 
-def test_what_a_binding_lacks_is_refused_before_anything_moves(tmp_path):
+def test_primitive_without_a_binding_is_refused_before_anything_moves(tmp_path):
     policy = tmp_path / "lacks.motet"
     policy.write_text("policy lacks for hsr {\n    go(kitchen_table)\n    turn(90 deg)\n    done\n}\n")
     with RobotProcess() as robot:

@@ -124,7 +124,7 @@ fn conversation_where_there_is_no_room_it_is_asked_where_else() {
 }
 
 #[test]
-fn conversation_who_stands_elsewhere_drives_there_before_anyone_is_asked() {
+fn conversation_drives_elsewhere_before_it_asks() {
     // The fridge stands by the counter: what is taken out of it could be put there from where the robot is,
     // and there is no room.
     let setting = setting("hsr");
@@ -269,7 +269,7 @@ fn slipping(setting: &DialogueSetup) -> Sim {
 }
 
 #[test]
-fn conversation_who_says_no_is_not_taken_to_say_yes() {
+fn conversation_does_not_take_no_for_yes() {
     let setting = setting("hsr");
     for no in [
         "No, leave it alone!",
@@ -309,7 +309,7 @@ fn says(request: &str, line: &'static str, answers: &[&'static str]) -> (Outcome
 }
 
 #[test]
-fn conversation_who_moves_stops_when_told_to() {
+fn conversation_stops_a_moving_robot_when_told_to() {
     for line in ["stop", "never mind", "that is enough", "leave it, please"] {
         let (outcome, asked, sim) = says("bring me the coke", line, &[]);
         assert_eq!((outcome, asked.len()), (Outcome::GivenUp, 0), "{line}");

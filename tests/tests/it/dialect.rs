@@ -83,7 +83,7 @@ fn dialect_nothing_is_dropped() {
         };
         assert_eq!(at, number, "{list}: {why}");
     }
-    assert!(matches!(read("place coke"), Err(NoPolicy::Unclear { .. })), "where to is not said");
+    assert!(matches!(read("place coke"), Err(NoPolicy::Unclear { .. })), "it has no destination");
 }
 
 #[test]

@@ -120,7 +120,7 @@ fn walk(
 }
 
 #[test]
-fn what_a_grammar_generates_is_read_and_typed() {
+fn grammar_texts_are_read_and_typed() {
     let mut found: BTreeMap<String, usize> = BTreeMap::new();
     let mut count = 0;
     for (at, (session, signatures)) in settings().iter().enumerate() {

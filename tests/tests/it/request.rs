@@ -295,7 +295,7 @@ fn request_what_is_known_and_does_not_fit_is_not_unknown() {
         "take the apple in the cupboard",
         "as far as I know the green apple is on the dining table",
     );
-    unfit("kitchen", "bring me three mugs", "I know of only 2 of what you call `three mugs`");
+    unfit("kitchen", "bring me three mugs", "I know of only 2 of the things that you call `three mugs`");
     unfit("kitchen", "take out the trash", "I cannot carry the rubbish bin");
     unfit("living_room", "dispose of the guest", "I cannot carry the visitor");
     unfit("living_room", "close the door", "I cannot open or close the room door");
@@ -389,12 +389,12 @@ fn request_what_cannot_hold_together_is_done_in_turn_or_named() {
     unfit(
         "living_room",
         "bring me the cup and then bring it to the guest",
-        "what I give to you I cannot take back: the tea cup goes there or to the visitor",
+        "I cannot take a thing back from you: the tea cup goes there or to the visitor",
     );
     unfit(
         "lab",
         "throw the pen away and bring it to me",
-        "what is thrown away stays there: the black pen goes into the waste bin or to you",
+        "a thing in the bin stays there: the black pen goes into the waste bin or to you",
     );
     unfit(
         "kitchen",

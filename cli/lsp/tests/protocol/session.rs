@@ -60,7 +60,7 @@ fn client_that_leaves_ends_the_server() {
 }
 
 #[test]
-fn what_the_server_does_not_know_does_no_harm() {
+fn server_ignores_unknown_messages() {
     let mut client = Client::new();
     client.notify("$/cancelRequest", json!({"id": "unknown"}));
     client.notify("$/setTrace", json!({"value": "off"}));

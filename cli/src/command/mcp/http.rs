@@ -69,7 +69,7 @@ impl BearerToken {
         if !is_name {
             // It may be the token itself, which is not shown.
             return Err(advised(
-                "what `--token-from` gives is no name of an environment variable".to_owned(),
+                "the value of `--token-from` is no name of an environment variable".to_owned(),
             ));
         }
         let token = std::env::var(variable).unwrap_or_default();

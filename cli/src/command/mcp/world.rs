@@ -57,7 +57,7 @@ pub(super) fn scene(situation: &AgentEnvironment) -> Value {
         "robot_pose": pose_of_base(scene),
         "entities": entities,
         "facts": facts(situation),
-        "about_facts": "what is not listed does not hold, or is not known",
+        "about_facts": "a fact that is not listed does not hold, or is not known",
     })
 }
 

@@ -76,7 +76,7 @@ impl Writer<'_> {
                 None => return Vec::new(),
             },
             NodeKind::Finally { .. } => {
-                self.refuse(path, "`finally`: what halts a node of a tree does not wait for a cleanup")
+                self.refuse(path, "`finally`: a tree that halts a node does not wait for a cleanup")
             }
             NodeKind::Monitor { watches, body } => match node.kind.deadline_secs().map(milliseconds) {
                 Some(Some(msec)) => {

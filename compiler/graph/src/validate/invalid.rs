@@ -107,7 +107,7 @@ pub enum InvalidReason {
     #[error("the call of `{0}` must bind its result, and only its result")]
     Result(SmolStr),
     /// A name of one type is bound to a value of another.
-    #[error("`{0}` cannot hold what is bound to it")]
+    #[error("`{0}` cannot hold the value that is bound to it")]
     BindingType(SmolStr),
     /// A name is used where no path has bound it.
     #[error("`{0}` is used before it is bound")]
@@ -122,7 +122,7 @@ pub enum InvalidReason {
     #[error("the motion {0}")]
     Witness(&'static str),
     /// An initial fact that is not ground.
-    #[error("what is known at the start must be made of literals")]
+    #[error("the facts at the start must be made of literals")]
     NotGround,
 }
 

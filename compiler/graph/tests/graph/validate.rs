@@ -84,7 +84,7 @@ fn tables() {
                 value: true,
             })
         },
-        "initial fact 1: what is known at the start must be made of literals",
+        "initial fact 1: the facts at the start must be made of literals",
     );
 }
 
@@ -219,7 +219,7 @@ fn calls() {
         "/steps/2/during/0: the call of `go` must bind its result, and only its result",
     );
     check(|g| call(g, 0).binds = Some(BindingId(9)), "/steps/0: binding 9 does not exist");
-    check(|g| g.bindings[0].ty = Type::Text, "/steps/0: `it'0` cannot hold what is bound to it");
+    check(|g| g.bindings[0].ty = Type::Text, "/steps/0: `it'0` cannot hold the value that is bound to it");
     check(|g| call(g, 2).needs[0].failure = FailureId(9), "/steps/1/try/0: failure 9 does not exist");
     check(
         |g| call(g, 2).effects[0].fact.args[0] = FactArg::Term(Term::Each),
@@ -292,7 +292,7 @@ fn loops_and_handlers() {
                 *list = Term::List(vec![v::text("cup")]);
             }
         },
-        "/steps/5: `item'1` cannot hold what is bound to it",
+        "/steps/5: `item'1` cannot hold the value that is bound to it",
     );
     check(
         |g| {
@@ -457,7 +457,10 @@ fn failures_results_and_goals() {
         },
         "/steps/1: `failure'1` is used before it is bound",
     );
-    refused(&|graph| graph.bindings[0].ty = Type::Text, "/steps/0: `kind'0` cannot hold what is bound to it");
+    refused(
+        &|graph| graph.bindings[0].ty = Type::Text,
+        "/steps/0: `kind'0` cannot hold the value that is bound to it",
+    );
     refused(
         &|graph| graph.sentences = vec![FailureSentence { failure: FailureId(9), text: "oh".into() }],
         "sentence 0: failure 9 does not exist",

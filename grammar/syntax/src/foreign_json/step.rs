@@ -134,7 +134,7 @@ impl<'t> ShapeReader<'t> {
                 let head = crate::source::Span { end: value.span.start, ..node.span };
                 let tail = crate::source::Span { start: value.span.end, ..node.span };
                 let edits = vec![replace(head, ""), replace(tail, "")];
-                self.read_as(start(node), pattern(node), "what is awaited", edits);
+                self.read_as(start(node), pattern(node), "its value", edits);
                 if is_condition {
                     self.condition(value);
                 }

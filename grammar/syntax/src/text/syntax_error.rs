@@ -277,13 +277,13 @@ impl<'t> ErrorContext<'t> {
             return Some("it has a bound: write `at most 5`");
         }
         if wants(&[Rule::kw_during]) {
-            return Some("a monitor ends with what it watches over: `monitor when c then R during { … }`");
+            return Some("a monitor ends with its block: `monitor when c then R during { … }`");
         }
         if wants(&[Rule::catch, Rule::kw_catch]) {
             return Some("a `try` has a handler: `try { … } catch any { … }`");
         }
         if wants(&[Rule::kw_then]) {
-            return Some("what happens follows `then`: `when c then pause`");
+            return Some("the reaction follows `then`: `when c then pause`");
         }
         if wants(&[Rule::kw_until]) && self.before.is_some_and(|before| before.text == "wait") {
             return Some("write `wait until c within 60 s`, or a time: `wait 5 s`");

@@ -367,13 +367,9 @@ fn shapes_of_parts_are_those_of_the_language() {
         r#"{"wait": "lit()"}"#,
         "`comment`, `step` are read as prose, which is ignored",
     );
-    let wait = r#"`{"seconds": …}` is read as what is awaited"#;
+    let wait = r#"`{"seconds": …}` is read as its value"#;
     step(r#"{"wait":{"seconds":5}}"#, r#"{"wait": 5}"#, wait);
-    step(
-        r#"{"wait":{"until":"lit()"}}"#,
-        r#"{"wait": "lit()"}"#,
-        r#"`{"until": …}` is read as what is awaited"#,
-    );
+    step(r#"{"wait":{"until":"lit()"}}"#, r#"{"wait": "lit()"}"#, r#"`{"until": …}` is read as its value"#);
     let keep = r#"{"keep": [{"distance": "user", "at_least": "1 m"}], "steps": []}"#;
     let whole = |step: &str| format!(r#"{{"motet": 1, "policy": "p", "steps": [{step}]}}"#);
     let rule = r#"`distance(user) >= 1 m` is read as `{"distance": "user", "at_least": "1 m"}`"#;

@@ -179,7 +179,7 @@ fn client_addresses_with_a_password_are_refused() {
 }
 
 #[test]
-fn client_who_drops_a_reply_hangs_up() {
+fn client_that_drops_a_reply_hangs_up() {
     let server = Server::new(vec![Act::Endless { text: "on and on ".to_owned() }]);
     let grammar = Grammar::new(&session().signatures(), Subset::default());
     let mut client = Client::new(ClientSettings { max_bytes: usize::MAX, ..brisk(&server) }).unwrap();

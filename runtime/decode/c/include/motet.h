@@ -1,4 +1,4 @@
-/* What a language model may write next: masks for samplers in C and C++.
+/* Masks of the tokens that a language model may write next, for samplers in C and C++.
  * Made by cbindgen from the crate motet-decode-c; do not edit. */
 
 #ifndef MOTET_H

@@ -32,7 +32,7 @@ pub unsafe extern "C" fn motet_string_free(string: *mut c_char) {
 pub(crate) fn guarded<T>(failed: T, run: impl FnOnce() -> Result<T, String>) -> T {
     let ran = catch_unwind(AssertUnwindSafe(run));
     let ran = ran.unwrap_or_else(|_| {
-        Err("a fault in the library itself: what it was called with is not to be used again".to_owned())
+        Err("a fault in the library itself: do not use the arguments of the call again".to_owned())
     });
     match ran {
         Ok(value) => {

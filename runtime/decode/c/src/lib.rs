@@ -1,11 +1,4 @@
-//! C interface of the constrained decoder: the functions of `include/motet.h`.
-//!
-//! The crate only carries values over the border. Handles are opaque. A null pointer or a wrong length is an
-//! error and no crash. A panic does not leave the library, and the value that it may have left half done is
-//! not used again. A function returns a status or null, and [`motet_last_error`] has the reason, for each
-//! thread.
-//!
-//! An environment and a vocabulary can be used by many threads at once, a decoder by one at a time.
+#![doc = include_str!("../README.md")]
 
 mod border;
 mod decoder;

@@ -121,7 +121,7 @@ fn stop(bench: &mut DriverBench, goal: GoalId, subject: &ConformanceSubject<'_>,
     bench.safe_stop(goal);
     let is_answer = |event: &DriverEvent| *event == DriverEvent::Stopped { goal };
     if bench.until(subject.patience, is_answer).is_none() {
-        bench.breach(Law::SafeStop, format!("that of goal {goal} is not, {when}"));
+        bench.breach(Law::SafeStop, format!("no answer to that of goal {goal}, {when}"));
     }
 }
 
@@ -139,7 +139,7 @@ fn held(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) {
 /// A safe stop is answered also of a goal that was never started.
 fn stopped_unheard_of(bench: &mut DriverBench, subject: &ConformanceSubject<'_>) {
     let goal = bench.unheard_of();
-    stop(bench, goal, subject, "of which it has never heard");
+    stop(bench, goal, subject, "which was never started");
 }
 
 /// Cancelled while it is held, it ends.

@@ -60,7 +60,7 @@ impl Law {
             Self::Observed => "an observation is answered once",
             Self::Watched => "a watch is answered at once, and watching twice is watching once",
             Self::Anew => "a new run has no goal of the run before",
-            Self::Time => "time never runs backwards, nor past what was asked for",
+            Self::Time => "time never runs backwards, nor past the requested time",
             Self::Repeatable => "the same calls at the same times give the same reports",
         }
     }

@@ -204,7 +204,7 @@ impl RemoteDriver {
         }
         let is_first = self.welcome.instance.is_empty();
         if !is_first && welcome.capabilities.clock != self.welcome.capabilities.clock {
-            return Err(LinkError::Greeting("the clock is no longer owned by whom it was".to_owned()));
+            return Err(LinkError::Greeting("the owner of the clock has changed".to_owned()));
         }
         // One that hears nothing is told nothing that moves the robot.
         if welcome.capabilities.clock == DriverClock::Wall {

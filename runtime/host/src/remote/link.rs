@@ -62,7 +62,7 @@ impl fmt::Display for LinkError {
                 )?;
                 f.write_str("; it was told to do nothing")
             }
-            Self::Deaf => f.write_str("the driver does not take in what is said to it"),
+            Self::Deaf => f.write_str("the driver does not read its messages"),
             Self::Flood => {
                 write!(f, "the driver said a line of more than {MAX_LINE_BYTES} bytes, or a larger picture")
             }

@@ -186,7 +186,7 @@ fn failed(
         Term::Literal(Value::Text(text)) => Some(text.as_str()),
         _ => None,
     });
-    let thing = about.as_ref().map_or_else(|| "what I need".to_owned(), |id| reason::named(scene, id));
+    let thing = about.as_ref().map_or_else(|| "the thing I need".to_owned(), |id| reason::named(scene, id));
     let name = primitive.map_or("do", |primitive| primitive.name.as_str());
     // A thing is put onto its place, whatever the failure is about.
     let onto = (name == primitives::PLACE).then(|| args().filter_map(entity).next_back()).flatten();

@@ -247,7 +247,7 @@ impl<'a> Reader<'a> {
                 format!("{primitive}({})", id(&what))
             }
             primitives::DETECT | primitives::SAY | primitives::ASK if rest.is_empty() => {
-                return Err("of what is not said".to_owned());
+                return Err("it has no argument".to_owned());
             }
             primitives::DETECT | primitives::SAY | primitives::ASK => {
                 format!("{primitive}({})", quoted(rest))
@@ -262,7 +262,7 @@ impl<'a> Reader<'a> {
         let padded = format!(" {rest}");
         let (what, place) = self.halves(&padded).unwrap_or((rest, ""));
         if what.is_empty() {
-            return Err("of what is not said".to_owned());
+            return Err("it has no argument".to_owned());
         }
         let scene = self.situation.scene;
         let known = self.thing(number, what, &[kinds::OBJECT]).ok();
@@ -305,7 +305,7 @@ impl<'a> Reader<'a> {
                 self.warnings.push(format!("action {number}: put it at `{at}`, where the robot is then"));
                 Ok((self.held_or(number, what)?, at))
             }
-            (_, None) => Err("where to is not said".to_owned()),
+            (_, None) => Err("it has no destination".to_owned()),
         }
     }
 
@@ -421,10 +421,10 @@ pub fn write(policy: &Policy, scene: &Scene) -> (String, Vec<String>) {
     if policy.keeps.is_empty() {
         writer.block(&policy.body);
     } else {
-        writer.without("where the robot may not go", &policy.body);
+        writer.without("a kept distance or zone", &policy.body);
     }
     if let Some(cleanup) = &policy.cleanup {
-        writer.without("that it is cleaned up after a failure too", cleanup);
+        writer.without("the cleanup after a failure", cleanup);
     }
     (writer.actions.join(", "), writer.left_out)
 }
@@ -448,18 +448,18 @@ impl Writer<'_> {
             StepKind::Sequence { body, .. } => self.block(body),
             StepKind::Monitor { body, .. } => self.without("a monitor", body),
             StepKind::Within { body, .. } => self.without("a deadline", body),
-            StepKind::Keep { body, .. } => self.without("where the robot may not go", body),
-            StepKind::Try { body, .. } => self.without("what is done after a failure", body),
+            StepKind::Keep { body, .. } => self.without("a kept distance or zone", body),
+            StepKind::Try { body, .. } => self.without("the steps after a failure", body),
             StepKind::If { then, .. } => self.without("a condition", then),
             StepKind::Repeat { body, .. } | StepKind::Each { body, .. } => self.without("a loop", body),
             StepKind::Parallel { branches } => {
-                branches.iter().for_each(|branch| self.without("that branches run together", branch));
+                branches.iter().for_each(|branch| self.without("the parallel run of branches", branch));
             }
             StepKind::Let { .. } => self.left_out.push("a name for a value".to_owned()),
             StepKind::Wait { .. } | StepKind::Delay { .. } => self.left_out.push("a wait".to_owned()),
             StepKind::Finally { step, cleanup } => {
                 self.step(step);
-                self.without("that it is cleaned up after a failure too", cleanup);
+                self.without("the cleanup after a failure", cleanup);
             }
             StepKind::End(_) => {}
         }

@@ -74,9 +74,9 @@ impl Prompt<'_> {
         let named = motet_requests::named(request, self.situation);
         let listed = |entities: &dyn Fn(&SmolStr) -> bool| scene::entities(self.situation, entities);
         let mut parts: Vec<Section> = vec![
-            ("what the primitives need and how they fail", self.lasting.contracts.clone()),
+            ("needs and failures of the primitives", self.lasting.contracts.clone()),
             ("things that the request does not name", listed(&|id| !named.contains(id))),
-            ("what was done", self.done()),
+            ("past requests and their outcome", self.done()),
             ("the example", self.lasting.example.clone()),
         ];
         let mut left_out = Vec::new();

@@ -84,8 +84,7 @@ fn unheard(own: &OwnEndpoint, others: &[Endpoint]) -> Option<Unheard> {
         return None;
     }
     let why = differs(own, first)?;
-    let lost =
-        if own.is_writer { "what the driver sends is not heard" } else { "the driver does not hear it" };
+    let lost = if own.is_writer { "nobody hears the driver" } else { "the driver does not hear it" };
     let part = if is_topic { String::new() } else { format!("{} is ", plain(topic)) };
     Some(Unheard::Differs(format!("{part}{why}; {lost}")))
 }
@@ -147,7 +146,7 @@ mod tests {
         let (one, two) = ("geometry_msgs/Twist", "geometry_msgs/TwistStamped");
         let said = check((one, Quality::Reliable, true), (two, true, false));
         let text = "read as geometry_msgs/TwistStamped, and bound as geometry_msgs/Twist; \
-                    what the driver sends is not heard";
+                    nobody hears the driver";
         assert_eq!(said.as_deref(), Some(text));
         let said = check((one, Quality::Reliable, false), (one, false, false));
         let text = "sent as best effort, and the driver asks for reliable; the driver does not hear it";

@@ -12,7 +12,7 @@ use super::robot_model::HandModel;
 use crate::collision::{Shape, Solid};
 
 /// Beginning of the names of kept regions in messages.
-pub(crate) const KEPT: &str = "what `keep ";
+pub(crate) const KEPT: &str = "the region that `keep ";
 /// Radius in m of a person without a shape.
 const PERSON_RADIUS_M: f64 = 0.3;
 /// Height of the column over a zone, in m.

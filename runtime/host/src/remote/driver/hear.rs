@@ -177,7 +177,7 @@ impl RemoteDriver {
             return named.into();
         }
         let beginning: String = named.chars().take(MAX_KIND_BYTES).collect();
-        self.log.note(&format!("what the driver calls a failure is no name, so it is `failed`: {beginning}"));
+        self.log.note(&format!("the driver's kind of a failure is no name, so it is `failed`: {beginning}"));
         failed()
     }
 

@@ -299,7 +299,7 @@ fn certificate_of_the_panda_covers_only_unreachable_objects() {
 
 /// Split causes are consistent: a cell closed for a share is closed for every smaller one, the cause is the
 /// nearest, and no parameter moves a body more than all do.
-fn what_is_nearest_to_closing_a_cell_is_told(name: &str, scene: &Scene, places: [f64; 3], size: f64) -> bool {
+fn culprit_is_nearest_to_closing_its_cell(name: &str, scene: &Scene, places: [f64; 3], size: f64) -> bool {
     let model = RobotModel::embedded(name);
     let state = SceneState::new(&model, scene);
     let context = QueryContext::new(&model, scene, &state);
@@ -353,7 +353,7 @@ fn split_cause_names_the_open_constraint() {
         for at in 0..60 {
             let places = [1, 2, 3].map(|n| part(at, n, SPACE));
             let size = [0.2, 0.05, 0.01][at % 3];
-            told += u32::from(what_is_nearest_to_closing_a_cell_is_told(name, &scene, places, size));
+            told += u32::from(culprit_is_nearest_to_closing_its_cell(name, &scene, places, size));
         }
     }
     assert!(told > 20, "{told}");
