@@ -188,7 +188,9 @@ impl Sightings {
                 && let Some(place) = &mut seen.entity.pose
             {
                 let share = seen.error_m.powi(2) / (seen.error_m.powi(2) + error_m.powi(2));
-                for (old, new) in place.xyz.iter_mut().zip(xyz) {
+                // What stands on something has its height from that.
+                let exact = if seen.entity.on.is_some() { 2 } else { 3 };
+                for (old, new) in place.xyz.iter_mut().zip(xyz).take(exact) {
                     *old += share * (new - *old);
                 }
                 seen.error_m *= (1.0 - share).sqrt();
@@ -235,9 +237,10 @@ impl Sightings {
         Some(entity)
     }
 
-    /// The entity with what it stands on or lies in where it is: the highest of what is right below it.
+    /// The entity with what it stands on or lies in where it is: the highest of what is right below it. On a
+    /// surface it touches that, however inexact its height was seen.
     fn supported(&self, scene: &Scene, entity: Entity) -> Entity {
-        let Some(pose) = entity.pose.filter(|_| entity.kind == kinds::OBJECT) else { return entity };
+        let Some(mut pose) = entity.pose.filter(|_| entity.kind == kinds::OBJECT) else { return entity };
         let [x, y, z] = pose.xyz;
         let bottom = z - half_height(&entity);
         let tops = scene.entities.values().filter_map(|other| {
@@ -258,10 +261,15 @@ impl Sightings {
         let highest = tops.max_by(|one, other| one.0.total_cmp(&other.0));
         let (on, inside) = match highest {
             Some((_, id, true)) => (None, Some(id)),
-            Some((_, id, false)) => (Some(id), None),
+            Some((top, id, false)) => {
+                if pose.rpy.iter().take(2).all(|tilt| *tilt == 0.0) {
+                    pose.xyz[2] = top + half_height(&entity);
+                }
+                (Some(id), None)
+            }
             None => (None, None),
         };
-        Entity { on, inside, ..entity }
+        Entity { on, inside, pose: Some(pose), ..entity }
     }
 }
 
