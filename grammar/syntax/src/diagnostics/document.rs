@@ -115,7 +115,7 @@ crate::mistakes! {
 
     /// The document has more than [`MAX_MISTAKES`] mistakes. The span is the first that is not told.
     TooManyMistakes("M0124", Error) {}
-    message(_m) { format!("there are more than {MAX_MISTAKES} mistakes: from here on they are not told") }
+    message(_m) { format!("there are more than {MAX_MISTAKES} mistakes: the rest is not reported") }
     help(_m) { Some("mend the first of them, and check again".into()) }
 
     /// A reply holds no policy. The span is its first line.

@@ -51,7 +51,7 @@ impl Law {
         match self {
             Self::Answered => "every start is acknowledged or refused, once",
             Self::EndsOnce => "an acknowledged goal ends exactly once",
-            Self::SilentAfterEnd => "after its end nothing is said of a goal",
+            Self::SilentAfterEnd => "a goal is not reported again after its end",
             Self::Cancelled => "a cancelled goal ends soon",
             Self::SafeStop => "a safe stop is always answered",
             Self::Held => "a held goal keeps still until it is told to go on",

@@ -372,7 +372,7 @@ impl RemoteDriver {
         self.breaches = self.breaches.saturating_add(1);
         match self.breaches {
             ..MOST_BREACHES => self.log.breach(text),
-            MOST_BREACHES => self.log.breach(&format!("{text}; further broken promises are not told")),
+            MOST_BREACHES => self.log.breach(&format!("{text}; further broken promises are not reported")),
             MAX_BREACHES.. => self.broke(&LinkError::Faithless),
             _ => {}
         }
