@@ -245,8 +245,9 @@ fn driver_that_misbehaves_is_named_and_stopped_safely() {
         (
             "detects",
             format!(
-                "{stop}    seen = [{{'label': 'cup', 'pose': {{'xyz': [i, 0, 1], 'quaternion': [0, 0, 0, \
-                 1]}}, 'extent': [0.1, 0.1, 0.1], 'confidence': 1}} for i in range(500)]\n    while m['method'] == \
+                "{stop}    at = {{'quaternion': [0, 0, 0, 1]}}\n    seen = [{{'label': 'cup', \
+                 'pose': dict(at, xyz=[i, 0, 1]), 'extent': [0.1, 0.1, 0.1], \
+                 'confidence': 1}} for i in range(500)]\n    while m['method'] == \
                  'start': say({{'method': 'detected', 'params': {{'detections': seen}}}})\n"
             ),
             "the driver said more than 5000 things `detected` in a second",
