@@ -13,7 +13,7 @@ use smol_str::SmolStr;
 use thiserror::Error;
 
 use super::action_list::{NUMBERED, items};
-use super::exchange::untagged;
+use super::exchange::{QUOTED, untagged};
 use crate::planned::quoted;
 
 /// A policy from a list of actions, with the interpretations that the reader made.
@@ -86,8 +86,6 @@ const BETWEEN: &[&str] =
 
 /// The longest action that is read, in bytes.
 const MAX_ACTION_BYTES: usize = 4_096;
-/// Length of a quotation of a longer one, in characters.
-const QUOTED: usize = 40;
 
 /// Reads a list of actions as a policy for a robot in a context. O(actions · objects).
 ///

@@ -55,7 +55,7 @@ const TAGS: [&str; 5] = ["history", "user", "vision", "feasibility", "robot"];
 /// The most exchanges of a text.
 pub const MAX_EXCHANGES: usize = 5_000;
 /// Length of a quotation in a message, in characters.
-const QUOTED: usize = 40;
+pub(super) const QUOTED: usize = 40;
 
 /// Reads all exchanges of a text. Tags may be in either case, closing tags are optional, and the parts of an
 /// exchange may come in any order. A second `<history>`, or a `<user>` after a `<robot>`, begins the next
