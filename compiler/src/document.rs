@@ -19,7 +19,7 @@ use crate::ir::{Program, StepKind};
 use crate::limits::diagnostics::NoPolicy;
 use crate::lower::StepInspection;
 use crate::prove::{GoalVerdict, Proof};
-use crate::repair::{Finding, RepairFinder};
+use crate::repair::{Finding, RepairFinder, RepairSearch};
 use crate::session::Session;
 
 /// Result of compiling one policy of a document.
@@ -74,7 +74,7 @@ impl Session {
     /// ```
     #[must_use]
     pub fn check(&self, parsed: &Parsed) -> Vec<Diagnostic> {
-        limited(self.findings(parsed, self.geometry.as_deref()))
+        limited(self.findings(parsed, self.geometry.as_deref(), RepairSearch::Best))
     }
 
     /// Checks a document, and tells of each of its policies without parameters if it compiles. Each policy is
@@ -146,8 +146,8 @@ impl Session {
                 if is_too_many(&mut errors, &findings) {
                     break;
                 }
-                let mut analysis =
-                    self.analyse(policy, parsed, library, environment, self.geometry.as_deref());
+                let (geometry, repairs) = (self.geometry.as_deref(), RepairSearch::Best);
+                let mut analysis = self.analyse(policy, parsed, library, environment, (geometry, repairs));
                 each(&analysis, library, environment);
                 findings.append(&mut analysis.findings);
                 if policy.params.is_empty() {
@@ -195,8 +195,9 @@ impl Session {
     fn goals(&self, parsed: &Parsed) -> Vec<GoalVerdict> {
         let mut goals = Vec::new();
         self.within(parsed, &mut Vec::new(), |library, environment, _| {
+            let aims = (None, RepairSearch::Skip);
             let analyses =
-                parsed.file.policies().map(|policy| self.analyse(policy, parsed, library, environment, None));
+                parsed.file.policies().map(|policy| self.analyse(policy, parsed, library, environment, aims));
             goals.extend(analyses.filter_map(|analysis| analysis.proof.goal));
         });
         goals
@@ -218,8 +219,13 @@ impl Session {
         diagnostics
     }
 
-    /// As [`Self::check`], each diagnostic with all known fixes, and with geometry only where it is given.
-    pub(crate) fn findings(&self, parsed: &Parsed, geometry: Option<&Geometry>) -> Vec<Finding> {
+    /// As [`Self::check`], each diagnostic with these repairs, and with geometry only where it is given.
+    pub(crate) fn findings(
+        &self,
+        parsed: &Parsed,
+        geometry: Option<&Geometry>,
+        repairs: RepairSearch,
+    ) -> Vec<Finding> {
         let mut diagnostics = parsed.diagnostics.clone();
         let mut findings = Vec::new();
         self.within(parsed, &mut diagnostics, |library, environment, _| {
@@ -228,7 +234,8 @@ impl Session {
                 if is_too_many(&mut errors, &findings) {
                     break;
                 }
-                findings.extend(self.analyse(policy, parsed, library, environment, geometry).findings);
+                let aims = (geometry, repairs);
+                findings.extend(self.analyse(policy, parsed, library, environment, aims).findings);
             }
         });
         findings.extend(diagnostics.into_iter().map(Finding::from));
@@ -267,7 +274,8 @@ impl Session {
                 return;
             };
             let is_refused = diagnostics.iter().any(is_error);
-            let mut analysis = self.analyse(policy, parsed, library, environment, self.geometry.as_deref());
+            let (geometry, repairs) = (self.geometry.as_deref(), RepairSearch::Best);
+            let mut analysis = self.analyse(policy, parsed, library, environment, (geometry, repairs));
             findings.append(&mut analysis.findings);
             (graph, skipped_motions) = analysis.lower(is_refused, library, environment);
         });
@@ -306,14 +314,14 @@ impl Session {
         parsed: &Parsed,
         library: &Library,
         environment: &Environment,
-        geometry: Option<&Geometry>,
+        (geometry, repairs): (Option<&Geometry>, RepairSearch),
     ) -> Analysis {
         let (program, mut diagnostics) = crate::resolve::resolve(policy, parsed.syntax, library, environment);
         diagnostics.extend(crate::limits::check_robot_name(policy, library));
         let limit = self.options.max_duration_secs;
         let (program, more) = crate::limits::check(program, library, environment, limit);
         diagnostics.extend(more);
-        let mut repairs = RepairFinder::default();
+        let mut repairs = RepairFinder::new(repairs);
         let (proof, more) = crate::prove::prove(&program, library, environment, &mut repairs);
         diagnostics.extend(more);
         let mut findings = repairs.findings(diagnostics, parsed, &program, library, environment);

@@ -6,7 +6,7 @@
 use motet_syntax::{Code, Diagnostic, FileId, Fix, Parsed, Severity, Source};
 
 pub use crate::repair::Applicability;
-use crate::repair::Finding;
+use crate::repair::{Finding, RepairSearch};
 use crate::session::Session;
 
 /// Maximal number of documents that are checked to fix one, and the least.
@@ -111,7 +111,8 @@ pub fn fix_parsed(
         applied.extend(done);
         at = next;
     }
-    let diagnostics = at.findings.into_iter().map(|found| found.diagnostic).collect();
+    let findings = session.findings(&at.parsed, None, RepairSearch::Best);
+    let diagnostics = findings.into_iter().map(|found| found.diagnostic).collect();
     FixedDocument { text: at.text, parsed: at.parsed, applied, diagnostics }
 }
 
@@ -138,7 +139,7 @@ pub struct FixOffer {
 /// ```
 #[must_use]
 pub fn offers(session: &Session, parsed: &Parsed) -> Vec<FixOffer> {
-    let findings = session.findings(parsed, None).into_iter();
+    let findings = session.findings(parsed, None, RepairSearch::All).into_iter();
     let offers = findings.map(|found| {
         let fixes = found.fixes().map(|(fix, applicability)| (fix.clone(), applicability)).collect();
         FixOffer { diagnostic: found.diagnostic, fixes }
@@ -146,7 +147,7 @@ pub fn offers(session: &Session, parsed: &Parsed) -> Vec<FixOffer> {
     offers.filter(|offer| !offer.fixes.is_empty()).collect()
 }
 
-/// A version of the document with its findings.
+/// A version of the document with its findings, without repairs.
 struct Candidate {
     text: String,
     parsed: Parsed,
@@ -160,7 +161,7 @@ impl Candidate {
     }
 
     fn new(session: &Session, text: String, parsed: Parsed) -> Self {
-        Self { findings: session.findings(&parsed, None), text, parsed }
+        Self { findings: session.findings(&parsed, None, RepairSearch::Skip), text, parsed }
     }
 
     /// The same document with its shapes in the form of the language, which changes nothing of its meaning.
@@ -237,10 +238,10 @@ impl Search<'_> {
         at: &Candidate,
         depth: usize,
     ) -> Option<(Candidate, Vec<AppliedFix>)> {
-        let mut order: Vec<_> = at.findings.iter().collect();
+        let mut order = self.session.findings(&at.parsed, None, RepairSearch::All);
         order.sort_by_key(|found| std::cmp::Reverse(found.diagnostic.severity));
         let mut promising = Vec::new();
-        for found in order {
+        for found in &order {
             let said = &found.diagnostic;
             for (fix, applicability) in found.fixes().filter(|(_, found)| *found >= self.least) {
                 self.tries = self.tries.checked_sub(1)?;

@@ -2,9 +2,8 @@
 //! add.
 //!
 //! A [`RepairFinder`] observes the prover and searches while the facts before the refuted step are at hand.
-//! The search chains backwards from needs to the calls that achieve them ([`crate::plan::achievers`]). It is
-//! bounded and greedy, after means-ends analysis (Newell and Simon 1963). What it finds is a candidate:
-//! [`crate::fix`] verifies it by checking the edited document again.
+//! The search is that of the planner ([`crate::plan::search`]) with a small budget. What it finds is a
+//! candidate: [`crate::fix`] verifies it by checking the edited document again.
 
 mod search;
 mod write;
@@ -18,16 +17,10 @@ use crate::plan::achievers::{CandidateCall, MAX_CANDIDATES, Subgoal};
 use crate::prove::evaluation::CallFrame;
 use crate::prove::{Observer, PolicyEnd, Problem, Prover};
 
-/// Maximal depth of needs of needs.
-const MAX_DEPTH: usize = 3;
-/// Maximal number of calls of one repair.
-const MAX_CALLS: usize = 6;
 /// Maximal number of findings of a policy for which repairs are searched.
 const MAX_FINDINGS: usize = 32;
 /// Maximal distance, in steps, to an earlier step before which a call may be inserted.
 const MAX_EARLIER: usize = 6;
-/// Maximal number of calls that are tried for one step.
-const MAX_TRIES: usize = 400;
 
 /// Repairs of one diagnostic, the best first.
 #[derive(Clone, Debug)]
@@ -92,14 +85,27 @@ impl From<Diagnostic> for Finding {
     }
 }
 
+/// Repairs that a check searches.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum RepairSearch {
+    Skip,
+    /// The best one for each finding.
+    Best,
+    All,
+}
+
 /// Searches repairs of what the prover refutes.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct RepairFinder {
+    search: RepairSearch,
     candidates: Vec<RepairCandidates>,
 }
 
 impl Observer for RepairFinder {
     fn observe(&mut self, prover: &mut Prover<'_>, problem: Problem<'_>, diagnostic: &Diagnostic) {
+        if self.search == RepairSearch::Skip {
+            return;
+        }
         match problem {
             Problem::RefutedNeed { step, def, frame } => self.before(prover, step, def, frame, diagnostic),
             Problem::StaleBinding { step, bound } => self.perceive_again(prover, step, bound, diagnostic),
@@ -111,6 +117,10 @@ impl Observer for RepairFinder {
 }
 
 impl RepairFinder {
+    pub(crate) fn new(search: RepairSearch) -> Self {
+        Self { search, candidates: Vec::new() }
+    }
+
     /// Joins diagnostics with the repairs that were found for them, as edits of the document.
     pub(crate) fn findings(
         &self,
@@ -148,7 +158,9 @@ impl RepairFinder {
                     None => (None, found.applicability),
                 };
             }
-            found.alternatives = fixes.chain(untried.iter().filter_map(written)).collect();
+            if self.search == RepairSearch::All {
+                found.alternatives = fixes.chain(untried.iter().filter_map(written)).collect();
+            }
         }
         findings
     }
@@ -178,12 +190,15 @@ impl RepairFinder {
             repairs.push(Repair::Drop(id));
         }
         repairs.extend(prover.unwatched(def, frame).map(|fluent| Repair::Watch(id, fluent)));
-        let plans = prover.plans(&def.needs, frame);
-        let subgoals = prover.first_refuted(&def.needs, frame);
-        let direct: Vec<_> = subgoals.into_iter().flat_map(|subgoal| prover.achievers(subgoal)).collect();
+        let plans = prover.plans(&def.needs, frame, self.count());
         repairs.extend(plans.into_iter().map(|calls| Repair::Before(id, prover.by_binding(calls, span))));
+        if self.search != RepairSearch::All {
+            return self.add(diagnostic, repairs);
+        }
         // A call that is impossible here, for instance because the hand is full, may go before an earlier
         // step.
+        let subgoals = prover.first_refuted(&def.needs, frame);
+        let direct: Vec<_> = subgoals.into_iter().flat_map(|subgoal| prover.achievers(subgoal)).collect();
         for earlier in prover.siblings_before(id) {
             let place = prover.program.step(earlier).map_or(span, |step| step.span);
             for achiever in direct.iter().take(MAX_CANDIDATES) {
@@ -211,8 +226,8 @@ impl RepairFinder {
         if self.is_full() || prover.is_inlined(id) {
             return;
         }
-        let need = NeedDef { condition: goal, each: None, when: None, span };
-        let plans = prover.plans(&[need], CallFrame::default());
+        let need = NeedDef::of(goal, span);
+        let plans = prover.plans(&[need], CallFrame::default(), self.count());
         let repairs = plans.into_iter().map(|calls| match end {
             PolicyEnd::Before(_) => Repair::Before(id, prover.by_binding(calls, span)),
             PolicyEnd::After(_) => {
@@ -242,6 +257,11 @@ impl RepairFinder {
             let again = Repair::Again { found: StepId(found), before: id, used: diagnostic.span };
             self.add(diagnostic, vec![again]);
         }
+    }
+
+    /// Number of plans to search for a finding.
+    fn count(&self) -> usize {
+        if self.search == RepairSearch::All { MAX_CANDIDATES } else { 1 }
     }
 
     fn is_full(&self) -> bool {
