@@ -33,6 +33,10 @@ seed() {
         xacro) cp ../tests/models/descriptions/*.xacro "$folder" ;;
         profile) cp ../runtime/sim/profiles/*.toml "$folder" ;;
         pddl) for domain in ../tests/pddl/*; do { cat "$domain"/domain.pddl; echo '%%'; cat "$domain"/problem.pddl; } >"$folder/$(basename "$domain")"; done ;;
+        ros2_binding) cp ../runtime/ros2/bindings/*.toml "$folder" ;;
+        ros2_layouts) cp ../runtime/ros2/layouts/*.layouts "$folder" ;;
+        # Messages of zeros, of as many types as there are first bytes.
+        ros2_message) for type in $(seq 0 120); do { printf "\\x$(printf %x "$type")"; head -c 600 /dev/zero; } >"$folder/zeros_$type"; done ;;
         journal | graph) cp corpus/"$1".* "$folder" ;;
     esac
     awk -v target="$1" -v folder="$folder" '

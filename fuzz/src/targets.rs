@@ -45,6 +45,7 @@ pub const TARGETS: &[Target] = &[
     ("xacro", |bytes| text(bytes, |source| drop(xacro::expand("x", &source.text, &[], &mut NoFiles)))),
     ("sdf", |bytes| text(bytes, |source| drop(import::read_sdf(source, FILE)))),
     ("map", |bytes| text(bytes, |source| drop(import::read_map(source, FILE)))),
+    ("map_image", map_image),
     ("stl", |bytes| drop(mesh::read("m.stl", bytes))),
     ("obj", |bytes| drop(mesh::read("m.obj", bytes))),
     ("dae", |bytes| drop(mesh::read("m.dae", bytes))),
@@ -68,6 +69,9 @@ pub const TARGETS: &[Target] = &[
     ("request", |bytes| text(bytes, request)),
     ("vocabulary", vocabulary),
     ("dataset", |bytes| text(bytes, dataset)),
+    ("ros2_binding", |bytes| text(bytes, |source| motet_ros2::outside::binding(&source.text))),
+    ("ros2_layouts", |bytes| text(bytes, |source| motet_ros2::outside::layouts(&source.text))),
+    ("ros2_message", motet_ros2::outside::message),
 ];
 
 const FILE: FileId = FileId(u16::MAX);
@@ -251,6 +255,13 @@ fn graph(source: &Source) {
             }
         }
     }
+}
+
+fn map_image(bytes: &[u8]) {
+    let yaml =
+        "image: m\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.2\n";
+    let (map, _) = import::read_map(&Source::new("map", yaml), FILE);
+    drop(map.expect("it is one").scene(bytes, &import::MapOptions::default()));
 }
 
 fn goal(source: &Source) {

@@ -190,7 +190,7 @@ impl Layouts {
         self.kinds.iter().map(|(name, kind)| (&**name, *kind))
     }
 
-    fn read(&mut self, text: &str, file: &str) -> Result<(), String> {
+    pub(crate) fn read(&mut self, text: &str, file: &str) -> Result<(), String> {
         let mut open: Option<(Kind, String, Vec<Vec<Field>>)> = None;
         for (number, line) in text.lines().enumerate() {
             let wrong = |what: String| format!("{file}, line {}: {what}", number + 1);
@@ -262,7 +262,7 @@ impl Layouts {
     }
 
     /// Refuses types that are nowhere, and messages that contain themselves.
-    fn check(&self) -> Result<(), String> {
+    pub(crate) fn check(&self) -> Result<(), String> {
         for (name, fields) in &self.messages {
             self.check_below(name, fields, &mut Vec::new())?;
         }

@@ -12,6 +12,8 @@ mod joint;
 mod layout;
 mod lines;
 mod observe;
+#[doc(hidden)]
+pub mod outside;
 mod perceive;
 mod picture;
 mod plan;
@@ -100,7 +102,9 @@ struct LayoutsArgs {
     json: Option<String>,
 }
 
-fn main() -> ExitCode {
+/// Runs the command line.
+#[must_use]
+pub fn run() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Drive(args) => drive(args),
         Command::Check(args) => {
