@@ -432,6 +432,9 @@ impl ProjectSession {
     /// Facts that the state says beside or against the scene, in order. What it makes unknown comes first.
     #[must_use]
     pub fn told_facts(&self) -> Vec<(Query, Truth)> {
+        if self.inputs.state.is_none() {
+            return Vec::new();
+        }
         let without = self.session.with_scene(self.scene.as_ref(), None);
         let keyed = |fact: (Query, Truth)| (format!("{:?}", fact.0), fact);
         let facts =
