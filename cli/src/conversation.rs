@@ -10,7 +10,7 @@ mod record;
 use std::rc::Rc;
 
 use motet::run::run_id;
-use motet_planner::dialogue::{Conversation, DialogueSetup, Outcome};
+use motet_planner::dialogue::{Conversation, Outcome};
 use motet_project::SavedProject;
 use motet_runtime::{Driver, Time};
 use serde_json::json;
@@ -27,6 +27,7 @@ use crate::output::{Colors, escape, note};
 use crate::questions::{QuestionDriver, jumps};
 use crate::ready_driver::{ReadyDriver, RunSubject, open_driver};
 use crate::report::Report;
+use crate::swap_checker::dialogue_setup;
 use crate::view::live::LivePage;
 
 /// Carries out one request, or without one every line of a person until there are no more.
@@ -39,7 +40,7 @@ pub(crate) fn converse(
     args.driver.refuse_flags()?;
     let mut project = args.session.project_here()?.open_with(report)?;
     let opened = project.session(report)?;
-    let Some(robot) = opened.robot.clone() else {
+    let Some(setup) = dialogue_setup(opened) else {
         return Err(CliError::Message("a request needs a robot: give --robot NAME".to_owned()));
     };
     let takes: &[&str] = match args.ask.first().map(String::as_str) {
@@ -59,22 +60,15 @@ pub(crate) fn converse(
     if args.model.camera && !ready.driver.capabilities().look {
         return Err(CliError::Message("--camera needs a driver that takes pictures".to_owned()));
     }
-    let setting = DialogueSetup {
-        robot,
-        scene: opened.scene.clone().unwrap_or_default(),
-        domains: opened.domains.clone(),
-        geometry: opened.geometry.clone(),
-        options: motet_compiler::CheckOptions { max_duration_secs: args.session.max_duration },
-    };
-    let mut planner = planner::planner(args, ready.speed, colors, record.clone())?;
+    let mut planner = planner::planner(args, (ready.speed, setup.options), colors, record.clone())?;
     catch_interrupts()?;
     let ReadyDriver { mut driver, eyes, saved, clock, speed, settings } = ready;
-    let mut talk = Conversation::new(&setting).with_runs(&run, settings, args.on_instruction.into());
+    let mut talk = Conversation::new(&setup).with_runs(&run, settings, args.on_instruction.into());
     talk.tell(opened.told_facts());
     let mut asking;
     // The simulated person of a script answers the questions of policies.
     let robot: &mut dyn Driver = if args.driver.answers.is_none() {
-        let answers = OperatorAnswers { operator: prompt.clone(), scene: &setting.scene };
+        let answers = OperatorAnswers { operator: prompt.clone(), scene: &setup.scene };
         asking = QuestionDriver::new(&mut *driver, answers, Time::ZERO, jumps(speed, clock));
         &mut asking
     } else {
@@ -88,8 +82,7 @@ pub(crate) fn converse(
         sight = eyes;
         let is_shown = args.format == OutputFormat::Human;
         let log = observer::PointLog { is_shown, record: record.clone() };
-        pointing =
-            observer::pointing(&args.model, robot, &mut sight, &setting.scene, (log, Rc::clone(&task)))?;
+        pointing = observer::pointing(&args.model, robot, &mut sight, &setup.scene, (log, Rc::clone(&task)))?;
         &mut pointing
     } else {
         robot

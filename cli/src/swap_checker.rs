@@ -6,7 +6,7 @@ use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::thread;
 use std::time::Instant;
 
-use motet_compiler::{CheckOptions, Session};
+use motet_compiler::Session;
 use motet_graph::Graph;
 use motet_planner::dialogue::{Conversation, DialogueSetup};
 use motet_project::{DOCUMENT, ProjectSession};
@@ -45,14 +45,8 @@ pub(crate) struct SwapChecker {
 
 impl SwapChecker {
     /// A desk for a project, and where to put offers. `None` without a robot.
-    pub(crate) fn new(opened: Arc<ProjectSession>, options: CheckOptions) -> Option<(Self, Sender<Offer>)> {
-        let setup = DialogueSetup {
-            robot: opened.robot.clone()?,
-            scene: opened.scene.clone().unwrap_or_default(),
-            domains: opened.domains.clone(),
-            geometry: opened.geometry.clone(),
-            options,
-        };
+    pub(crate) fn new(opened: Arc<ProjectSession>) -> Option<(Self, Sender<Offer>)> {
+        let setup = dialogue_setup(&opened)?;
         let (sender, offers) = channel();
         Some((Self { opened, setup, offers, checking: None, swapping: None }, sender))
     }
@@ -117,6 +111,17 @@ impl SwapChecker {
     pub(crate) const fn glance_every(&self) -> Time {
         if self.checking.is_some() { BUSY } else { IDLE }
     }
+}
+
+/// Environment in which requests are carried out; `None` without a robot.
+pub(crate) fn dialogue_setup(opened: &ProjectSession) -> Option<DialogueSetup> {
+    Some(DialogueSetup {
+        robot: opened.robot.clone()?,
+        scene: opened.scene.clone().unwrap_or_default(),
+        domains: opened.domains.clone(),
+        geometry: opened.geometry.clone(),
+        options: opened.inputs().check_options(),
+    })
 }
 
 fn check(session: &Session, opened: &ProjectSession, policy: String) -> Checked {

@@ -13,7 +13,7 @@ use std::time::Duration;
 
 use motet::driver_camera::DriverCamera;
 use motet_compiler::Geometry;
-use motet_geometry::planning::{RobotModel, SearchBudget};
+use motet_geometry::planning::RobotModel;
 use motet_host::journal::{JournalWriter, RunRecorder as JournalObserver, read};
 use motet_host::remote::protocol::Hello;
 use motet_host::remote::{DriverAddress, DriverTimeouts, RemoteDriver};
@@ -29,6 +29,7 @@ use crate::Workers;
 use crate::actions::{ActionFaults, ActionLedger};
 use crate::outcome::StepFailures;
 use crate::planners::PlannerKind;
+use crate::setup;
 
 /// Interpreter of the physics driver.
 const PYTHON: &str = "python3";
@@ -81,7 +82,7 @@ impl Bench {
     #[must_use]
     pub fn geometry(&self, robot: &str, scene: &Scene) -> Option<Arc<Geometry>> {
         let body = builtin::robot(robot).filter(|_| self.driver == DriverKind::Mujoco)?;
-        Some(Arc::new(Geometry::new(&body.robot, &body.urdf, scene, None, SearchBudget::default())))
+        Some(setup::geometry(&body, scene))
     }
 
     /// A world by the name or the file of its profile.

@@ -4,10 +4,9 @@
 //! A word is an error, a warning, or a note on what is left to the run before the step that fails.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use indexmap::IndexMap;
-use motet_compiler::{Geometry, Session};
+use motet_compiler::Session;
 use motet_graph::{Graph, Node, NodeKind, Verdict};
 use motet_robots::builtin;
 use motet_robots::card::Robot;
@@ -20,7 +19,7 @@ use motet_syntax::{FileId, Severity, Source, Sources};
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::Workers;
+use crate::{Workers, setup};
 
 /// Keys that only steps have as their first.
 const STEP_KEYS: &[&str] =
@@ -204,10 +203,9 @@ pub fn judge(workers: Workers, mutants: Vec<Mutant>, seed: u64) -> Result<Vec<(M
 fn setting(robot: &str, scene: &str) -> Result<Setting, String> {
     let body = builtin::robot(robot).ok_or_else(|| format!("no robot `{robot}`"))?;
     let scene = builtin::scene(scene).ok_or_else(|| format!("no scene `{scene}`"))?;
-    let session = Session::builder().robot(&body.robot).scene(&scene).build(&mut Sources::default());
-    let budget = motet_geometry::planning::SearchBudget::default();
-    let geometry = Geometry::new(&body.robot, &body.urdf, &scene, None, budget);
-    Ok(Setting { session: session.with_geometry(Arc::new(geometry)), robot: body.robot, scene })
+    let (session, _) = setup::session(Some(&body.robot), Some(&scene), &mut Sources::default());
+    let session = session.with_geometry(setup::geometry(&body, &scene));
+    Ok(Setting { session, robot: body.robot, scene })
 }
 
 impl Setting {

@@ -1,6 +1,10 @@
 //! Robots, scenes and sessions by name, for tests.
 
-use motet_compiler::Session;
+use std::sync::Arc;
+
+use motet_compiler::{Geometry, Session};
+use motet_geometry::planning::SearchBudget;
+use motet_robots::builtin::RobotWithBody;
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_syntax::{Diagnostic, Source, Sources};
@@ -28,6 +32,12 @@ pub fn scene_from(name: &str, json: &str) -> Scene {
     let id = sources.add(source.clone());
     let (scene, said) = motet_robots::scene::read(&source, id);
     scene.unwrap_or_else(|| panic!("{name}: {said:?}"))
+}
+
+/// Motion checks for a robot in a scene.
+#[must_use]
+pub fn geometry(body: &RobotWithBody, scene: &Scene) -> Arc<Geometry> {
+    Arc::new(Geometry::new(&body.robot, &body.urdf, scene, None, SearchBudget::default()))
 }
 
 /// A session of a robot in a scene, with what is wrong with them.

@@ -3,11 +3,9 @@
 //! reach by geometry; nothing is injected.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 use std::time::Duration;
 
-use motet_compiler::{CheckOptions, Geometry};
-use motet_geometry::planning::SearchBudget;
+use motet_compiler::CheckOptions;
 use motet_planner::dialogue::{Conversation, DialogueSetup, Kind, Outcome, Person, Problem};
 use motet_robots::scene::{self, Scene};
 use motet_runtime::Time;
@@ -20,6 +18,7 @@ use crate::actions::ActionFaults;
 use crate::bench::{Bench, TrialObserver, action_line};
 use crate::outcome::{FailureSort, Rate};
 use crate::planners::Timed;
+use crate::setup;
 
 /// The robots of the trials.
 const ROBOTS: [&str; 2] = ["hsr", "anymal_z1"];
@@ -200,12 +199,12 @@ impl Task {
             motet_robots::builtin::robot(robot).ok_or_else(|| format!("there is no robot `{robot}`"))?;
         let (told, real) = self.rooms()?;
         let mut robot_in = bench.robot(&body.robot, (&told, &real), seed, Faults::default())?;
-        let geometry = Geometry::new(&body.robot, &body.urdf, &told, None, SearchBudget::default());
+        let geometry = Some(setup::geometry(&body, &told));
         let setting = DialogueSetup {
             robot: body.robot,
             scene: told,
             domains: Vec::new(),
-            geometry: Some(Arc::new(geometry)),
+            geometry,
             options: CheckOptions::default(),
         };
         let mut talk = bench.sighted(Conversation::new(&setting), &robot_in);

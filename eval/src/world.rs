@@ -4,16 +4,14 @@
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::Arc;
 
-use motet_compiler::{CheckOptions, Geometry, Session};
-use motet_geometry::planning::SearchBudget;
+use motet_compiler::CheckOptions;
 use motet_graph::{Comparison, Condition, FactArg, Graph, Term, Value};
 use motet_planner::Builtin;
 use motet_planner::dialogue::{
     Conversation, DialogueObserver, DialogueSetup, Kind, Outcome, Person, Problem,
 };
-use motet_robots::builtin;
+use motet_robots::builtin::{self, RobotWithBody};
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
 use motet_runtime::{Answer, Engine, Event, Observer, Pattern, Query, RunEnd, StartState, Time, run};
@@ -23,7 +21,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::bench::{Bench, TrialRobot};
 use crate::outcome::{FailureSort, StepFailures};
-use crate::{dialogue, mutations};
+use crate::{dialogue, mutations, setup};
 
 /// Requests in words, by their tasks.
 const WORDINGS: &str = "\
@@ -135,8 +133,7 @@ impl WorldRun {
         let (is_done, is_true) = match (&self.work, builtin::robot(&self.robot), builtin::scene(&self.scene))
         {
             (Work::Policy(text), Some(body), Some(scene)) => {
-                let geometry = Geometry::new(&body.robot, &body.urdf, &scene, None, SearchBudget::default());
-                self.policy(text, &body.robot, &scene, Arc::new(geometry), bench, &mut seen)?
+                self.policy(text, &body, &scene, bench, &mut seen)?
             }
             (Work::Request(case), Some(body), Some(scene)) => {
                 self.request(case, body.robot, scene, bench, &mut seen)?
@@ -160,14 +157,14 @@ impl WorldRun {
     fn policy(
         &self,
         text: &str,
-        robot: &Robot,
+        body: &RobotWithBody,
         scene: &Scene,
-        geometry: Arc<Geometry>,
         bench: &Bench,
         seen: &mut Failures,
     ) -> Result<(bool, bool), String> {
-        let session = Session::builder().robot(robot).scene(scene).build(&mut Sources::default());
-        let session = session.with_geometry(geometry);
+        let robot = &body.robot;
+        let (session, _) = setup::session(Some(robot), Some(scene), &mut Sources::default());
+        let session = session.with_geometry(setup::geometry(body, scene));
         let parsed = motet_syntax::read(&Source::new("example.motet", text), FileId(99));
         let Some(graph) = session.compile(&parsed, None).graph else { return Ok((false, false)) };
         let mut robot_in = bench.robot(robot, (scene, scene), self.seed, Faults::default())?;

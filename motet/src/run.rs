@@ -190,8 +190,7 @@ impl Observer for Guarded<'_> {
     }
 
     fn verifier(&mut self) -> Option<&mut dyn Verifier> {
-        let guard: &mut dyn Verifier = self.guard.as_mut()?;
-        Some(guard)
+        self.guard.as_mut().map(|guard| guard as &mut dyn Verifier)
     }
 
     fn at_least_every(&self) -> Time {

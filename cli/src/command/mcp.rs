@@ -128,7 +128,6 @@ pub(crate) fn run(args: &McpArgs) -> Result<Exit, CliError> {
                 let inputs = RobotInputs {
                     driver,
                     environment: &args.session.environment,
-                    max_duration: args.session.max_duration,
                     journals: &args.journals,
                     situations: &situations,
                     runs: &runs,

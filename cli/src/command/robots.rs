@@ -7,10 +7,9 @@ mod xacro;
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
-use motet_compiler::Session;
 use motet_geometry::kinematics::KinematicChain;
 use motet_geometry::planning::{AllowedCollisions, Contact, IkSolver, QueryContext, RobotModel, SceneState};
-use motet_project::{ProjectError, RobotFiles, require, robot_names, touching};
+use motet_project::{ProjectError, RobotFiles, SessionInputs, robot_names, touching};
 use motet_robots::card::{Drive, Range, Robot};
 use motet_robots::clearance::Clearance;
 use motet_robots::scene::Scene;
@@ -239,10 +238,10 @@ fn check(name: &str, report: &mut Report) -> Result<Exit, CliError> {
     let mut sources = Sources::default();
     let found = files.card(&mut sources, report).and_then(|robot| {
         // Both are checked, so that one run reports all errors.
-        let diagnostics = Session::builder().robot(&robot).build(&mut sources).input_diagnostics().to_vec();
-        let declared = require("robot card", &diagnostics, &sources, report);
+        let inputs = SessionInputs { robot: Some(&robot), ..SessionInputs::default() };
+        let declared = inputs.open("robot card", &mut sources, report);
         let urdf = files.body(&robot, &mut sources, report)?;
-        declared.map(|()| (robot, urdf))
+        declared.map(|_| (robot, urdf))
     });
     match found {
         Ok((robot, urdf)) => {

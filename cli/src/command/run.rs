@@ -11,7 +11,6 @@ use std::sync::Arc;
 
 use clap::Args;
 use motet::run::{create_journal, engine, events, journal_head, run_id, start_state, unix_ns};
-use motet_compiler::CheckOptions;
 use motet_graph::Graph;
 use motet_host::journal::JournalWriter;
 use motet_host::remote::DriverAddress;
@@ -211,9 +210,8 @@ fn with_desk(
     args: &RunArgs,
     (colors, clock): (Colors, Clock),
 ) -> PacedView {
-    let options = CheckOptions { max_duration_secs: args.session.max_duration };
     let desk = page.zip(opened).and_then(|(page, opened)| {
-        let (desk, offers) = SwapChecker::new(opened, options)?;
+        let (desk, offers) = SwapChecker::new(opened)?;
         page.borrow().hub().take_offers(offers);
         Some(desk)
     });

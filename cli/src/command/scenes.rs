@@ -6,9 +6,8 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
 use motet::feasible::decide_in;
-use motet_compiler::Session;
 use motet_geometry::planning::RobotModel;
-use motet_project::{open_robot, read_scene, require};
+use motet_project::{SessionInputs, open_robot, read_scene, require};
 use motet_robots::builtin;
 use motet_robots::scene::{Entity, Scene, fit};
 use motet_syntax::Sources;
@@ -160,8 +159,7 @@ fn check(name: &str, robot: Option<&str>, report: &mut Report) -> Result<Exit, C
     let scene = read_scene(name, &mut sources, report)?;
     if let Some(robot) = robot {
         let (robot, urdf) = open_robot(robot, &mut sources, report)?;
-        let session = Session::builder().robot(&robot).scene(&scene).build(&mut sources);
-        require("scene", session.input_diagnostics(), &sources, report)?;
+        SessionInputs::of(&robot, &scene, None).open("scene", &mut sources, report)?;
         if let Some(urdf) = urdf {
             require("scene", &fit(&scene, &urdf), &sources, report)?;
         }

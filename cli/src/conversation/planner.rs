@@ -3,6 +3,7 @@
 use std::io::{self, IsTerminal, Write as _};
 
 use motet_client::{Client, ClientSettings, EncodedImage};
+use motet_compiler::CheckOptions;
 use motet_planner::builtin::{PlanError, PlannedRequest};
 use motet_planner::model::{self, ModelEvent, ModelObserver, ModelPlanner, Role, Start};
 use motet_planner::runtime_check::CheckMode;
@@ -21,7 +22,7 @@ use crate::output::{Colors, note, styled_note};
 /// Planner of the flags.
 pub(super) fn planner(
     args: &ConversationArgs,
-    speed: Speed,
+    (speed, options): (Speed, CheckOptions),
     colors: Colors,
     record: Option<ConversationRecord>,
 ) -> Result<Box<dyn Planner>, CliError> {
@@ -59,8 +60,8 @@ pub(super) fn planner(
         in_line: false,
     };
     // The first step alone does not show whether the whole policy keeps the maximum duration.
-    let start =
-        if flags.eager && args.session.max_duration.is_none() { Start::FirstStep } else { Start::Whole };
+    let is_bounded = options.max_duration_secs.is_some();
+    let start = if flags.eager && !is_bounded { Start::FirstStep } else { Start::Whole };
     let checks = speed.verifies();
     let settings =
         model::Settings { repairs: flags.server.repair, start, checks, ..model::Settings::default() };

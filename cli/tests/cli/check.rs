@@ -371,7 +371,12 @@ fn other_commands_take_robot_and_scene_from_the_folder() {
     place
         .run_args(&["feasible", "--for", "go_to(counter)"].map(str::to_owned))
         .check(0, &["out:go_to(counter): feasible"]);
-    place.run_args(&["do", "go to the counter", "--speed", "max"].map(str::to_owned)).check(0, &[]);
+    let request = ["do", "go to the counter", "--speed", "max", "--ask", "never"].map(str::to_owned);
+    place.run_args(&request).check(0, &[]);
+    Place::new("commands_short")
+        .file("motet.toml", "robot = \"hsr\"\nscene = \"kitchen\"\nmax_duration = \"1 s\"\n")
+        .run_args(&request)
+        .check(3, &["err:at most 1 s is allowed"]);
     place.run("compile wrong/c.motet").check(2, &["err:line 1"]);
     let nowhere = Place::new("commands_no_config");
     nowhere.run("feasible --all").check(2, &["err:no robot is named", "err:motet.toml"]);

@@ -12,8 +12,8 @@ mod words;
 
 use std::time::Instant;
 
+use motet_compiler::Session;
 use motet_compiler::fix::FixLimits;
-use motet_compiler::{CheckOptions, Session};
 use motet_robots::card::Robot;
 use motet_syntax::ast::Item;
 use motet_syntax::{FileId, Severity, Source, Sources};
@@ -141,14 +141,8 @@ fn session(
     let parsed = motet_syntax::read(&source, file);
     let scene = row::scene(row, names, sources)?;
     let state = row::state(row, names, &robot);
-    let options = CheckOptions::default();
-    let session = Session::builder()
-        .robot(&robot)
-        .domains(&[parsed.file])
-        .scene(&scene)
-        .state(&state)
-        .options(options)
-        .build(sources);
+    let session =
+        Session::builder().robot(&robot).domains(&[parsed.file]).scene(&scene).state(&state).build(sources);
     let mut said = session.input_diagnostics().to_vec();
     said.extend(parsed.diagnostics);
     match said.iter().find(|said| said.severity == Severity::Error) {

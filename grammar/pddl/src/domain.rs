@@ -9,7 +9,7 @@ use crate::MAX_ARITY;
 use crate::diagnostics::{Unsupported, WrongName};
 use crate::formula::{self, Action, Literal, Scope, literal, literals};
 use crate::s_expression::SExpr;
-use crate::typed::{self, DomainNames, ListItem, TypedName};
+use crate::typed::{self, DomainNames, ListItem, Objects, TypedName};
 
 /// Requirements that the import supports.
 const REQUIREMENTS: [&str; 5] =
@@ -39,8 +39,9 @@ pub(crate) fn read(tree: &SExpr, diagnostics: &mut Vec<Diagnostic>) -> Option<Do
                 words.types = typed::hierarchy(&typed::read(parts, ListItem::Names, diagnostics), diagnostics)
             }
             ":constants" => {
-                words.constants = typed::read(parts, ListItem::Names, diagnostics);
-                typed::check(&words.constants, &words.types, diagnostics);
+                let constants = typed::read(parts, ListItem::Names, diagnostics);
+                typed::check(&constants, &words.types, diagnostics);
+                words.constants = constants.into_iter().map(|one| (one.name.clone(), one)).collect();
             }
             ":predicates" => parts.iter().for_each(|part| predicate(part, words, diagnostics)),
             ":action" => {
@@ -128,7 +129,7 @@ fn predicate(tree: &SExpr, words: &mut DomainNames, diagnostics: &mut Vec<Diagno
 pub(crate) struct Problem {
     pub(crate) name: SmolStr,
     /// The domain's constants and its own objects.
-    pub(crate) objects: Vec<TypedName>,
+    pub(crate) objects: Objects,
     pub(crate) init: Vec<Literal>,
     pub(crate) goal: Vec<Literal>,
 }
@@ -142,24 +143,16 @@ pub(crate) fn read_problem(
     let (name, sections) = define(tree, "problem", diagnostics)?;
     let objects = domain.words.constants.clone();
     let mut problem = Problem { name, objects, init: Vec::new(), goal: Vec::new() };
-    let mut types: IndexMap<SmolStr, _> =
-        problem.objects.iter().map(|object| (object.name.clone(), object.ty.clone())).collect();
     // Objects may stand behind what speaks of them.
     for section in sections {
         if let Some((":objects", parts)) = section.form().map(|(head, parts)| (head.as_str(), parts)) {
             let found = typed::read(parts, ListItem::Names, diagnostics);
             typed::check(&found, &domain.words.types, diagnostics);
             for object in found {
-                match types.get(&object.name) {
-                    None => {
-                        types.insert(object.name.clone(), object.ty.clone());
-                        problem.objects.push(object);
-                    }
-                    Some(ty) if *ty == object.ty => {}
-                    Some(_) => {
-                        let what = format!("the object `{}` is declared twice", object.name);
-                        diagnostics.push(WrongName { span: object.span, what, help: None }.into());
-                    }
+                let TypedName { name, ty, span } = object.clone();
+                if problem.objects.entry(name.clone()).or_insert(object).ty != ty {
+                    let what = format!("the object `{name}` is declared twice");
+                    diagnostics.push(WrongName { span, what, help: None }.into());
                 }
             }
         }

@@ -6,7 +6,7 @@ use smol_str::SmolStr;
 
 use crate::diagnostics::{Unsupported, WrongName, unknown};
 use crate::s_expression::SExpr;
-use crate::typed::{self, DomainNames, ListItem, TypedName, is_type};
+use crate::typed::{self, DomainNames, ListItem, Objects, TypedName, is_type};
 
 /// An argument of a predicate.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -38,7 +38,7 @@ pub(crate) struct Literal {
 pub(crate) struct Scope<'a> {
     pub(crate) words: &'a DomainNames,
     pub(crate) variables: &'a [TypedName],
-    pub(crate) objects: &'a [TypedName],
+    pub(crate) objects: &'a Objects,
 }
 
 /// Collects the literals of a conjunction. `place` names it in messages: "a precondition".
@@ -176,17 +176,21 @@ fn a(word: &str) -> &'static str {
 /// An argument and its type.
 fn arg(tree: &SExpr, scope: Scope<'_>, diagnostics: &mut Vec<Diagnostic>) -> Option<(Argument, SmolStr)> {
     let word = tree.word()?;
-    let (name, among, kind) = match word.strip_prefix('?') {
-        Some(name) => (SmolStr::new(name), scope.variables, "variable"),
-        None => (word.clone(), scope.objects, "object"),
-    };
-    // An inner variable hides an outer one.
-    let Some(found) = among.iter().rev().find(|one| one.name == name) else {
-        diagnostics.push(unknown(tree.span, kind, word, among.iter().map(|one| one.name.as_str())).into());
+    let Some(name) = word.strip_prefix('?') else {
+        if let Some(object) = scope.objects.get(word) {
+            return Some((Argument::Name(word.clone()), object.ty.clone()));
+        }
+        let known = scope.objects.keys().map(SmolStr::as_str);
+        diagnostics.push(unknown(tree.span, "object", word, known).into());
         return None;
     };
-    let arg = if kind == "variable" { Argument::Variable(name) } else { Argument::Name(name) };
-    Some((arg, found.ty.clone()))
+    // An inner variable hides an outer one.
+    let Some(variable) = scope.variables.iter().rev().find(|one| one.name == name) else {
+        let known = scope.variables.iter().map(|one| one.name.as_str());
+        diagnostics.push(unknown(tree.span, "variable", word, known).into());
+        return None;
+    };
+    Some((Argument::Variable(name.into()), variable.ty.clone()))
 }
 
 /// An action of a domain.

@@ -77,8 +77,8 @@ fn step(
             diagnostics.push(part.not("an object").into());
             return None;
         };
-        if !problem.objects.iter().any(|object| object.name == *word) {
-            let known = problem.objects.iter().map(|object| object.name.as_str());
+        if !problem.objects.contains_key(word) {
+            let known = problem.objects.keys().map(SmolStr::as_str);
             diagnostics.push(unknown(part.span, "object", word, known).into());
         }
         args.push((word.clone(), part.span));

@@ -21,12 +21,15 @@ pub(crate) struct TypedName {
 /// A type to the one above it. All but `object` have one, and `object` is above them all.
 pub(crate) type TypeHierarchy = IndexMap<SmolStr, SmolStr>;
 
+/// Constants and objects by their names.
+pub(crate) type Objects = IndexMap<SmolStr, TypedName>;
+
 /// Declarations that the formulas of a domain and its problems refer to.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct DomainNames {
     pub(crate) types: TypeHierarchy,
     pub(crate) predicates: IndexMap<SmolStr, Vec<TypedName>>,
-    pub(crate) constants: Vec<TypedName>,
+    pub(crate) constants: Objects,
 }
 
 /// Reads a typed list. Variables lose their `?`, and only they may stand where `variables` is asked for.

@@ -19,7 +19,7 @@ use crate::Translation;
 use crate::domain::{Domain, Problem};
 use crate::formula::{Action, Argument, Effect, Literal};
 use crate::plan::PlanStep;
-use crate::typed::{DomainNames, OBJECT, TypedName};
+use crate::typed::{DomainNames, OBJECT, Objects, TypedName};
 
 /// All of it.
 pub(crate) fn imported(domain: &Domain, problem: &Problem, plan: Vec<PlanStep>) -> Translation {
@@ -27,7 +27,7 @@ pub(crate) fn imported(domain: &Domain, problem: &Problem, plan: Vec<PlanStep>) 
     items.extend(domain.words.predicates.iter().map(|(name, params)| fluent(name, params)));
     items.extend(domain.actions.values().map(|action| primitive(action, &domain.words)));
     items.extend(entities(&problem.objects));
-    let facts: Vec<_> = problem.init.iter().map(|fact| literal(fact, &[])).collect();
+    let facts: Vec<_> = problem.init.iter().map(|fact| literal(fact, &Objects::new())).collect();
     if !facts.is_empty() {
         items.push(Item::Initially(InitiallyDecl { facts, span: Span::default() }));
     }
@@ -56,7 +56,7 @@ fn kinds(domain: &Domain) -> Vec<Item> {
     items
 }
 
-fn typed(param: &TypedName, constants: &[TypedName]) -> Param {
+fn typed(param: &TypedName, constants: &Objects) -> Param {
     let ty = TypeExpr::Named(kind_name(&param.ty, param.span));
     Param { name: param_name(&param.name, param.span, constants), ty, default: None }
 }
@@ -65,7 +65,7 @@ fn fluent(name: &SmolStr, params: &[TypedName]) -> Item {
     let span = Span::default();
     let mut written: Vec<Param> = Vec::with_capacity(params.len());
     for param in params {
-        let mut param = typed(param, &[]);
+        let mut param = typed(param, &Objects::new());
         while written.iter().any(|other| other.name.text == param.name.text) {
             param.name.text = format_smolstr!("{}_", param.name.text);
         }
@@ -101,7 +101,8 @@ fn quantified(effect: &Effect, words: &DomainNames) -> Quantified {
 }
 
 /// Objects of one type in a row, as they stand in the file.
-fn entities(objects: &[TypedName]) -> Vec<Item> {
+fn entities(objects: &Objects) -> Vec<Item> {
+    let objects: Vec<_> = objects.values().collect();
     objects
         .chunk_by(|one, other| one.ty == other.ty)
         .filter_map(|chunk| {
@@ -141,7 +142,7 @@ fn policy(problem: &Problem, plan: Vec<PlanStep>) -> Policy {
         params: Vec::new(),
         result: None,
         robot: None,
-        achieves: conjunction(problem.goal.iter().map(|part| literal(part, &[])).collect()),
+        achieves: conjunction(problem.goal.iter().map(|part| literal(part, &Objects::new())).collect()),
         body: Block::new(steps, span),
         keeps: Vec::new(),
         cleanup: None,
@@ -160,7 +161,7 @@ fn conjunction(mut parts: Vec<Expr>) -> Option<Expr> {
     }
 }
 
-fn literal(literal: &Literal, constants: &[TypedName]) -> Expr {
+fn literal(literal: &Literal, constants: &Objects) -> Expr {
     let span = literal.atom.span;
     let args = literal.atom.args.iter().map(|arg| {
         let name = match arg {
@@ -187,8 +188,8 @@ fn literal(literal: &Literal, constants: &[TypedName]) -> Expr {
 const ENTITY_TAKEN: [&str; 6] = ["robot", "user", "start", "any", "true", "false"];
 
 /// Name of a parameter. `on` is free in Motet, yet `result` is not.
-fn param_name(text: &str, span: Span, constants: &[TypedName]) -> Name {
-    if constants.iter().any(|constant| constant.name == text) {
+fn param_name(text: &str, span: Span, constants: &Objects) -> Name {
+    if constants.contains_key(text) {
         // In PDDL `?depot` and `depot` are two names.
         return Name { text: format_smolstr!("{text}__"), span };
     }

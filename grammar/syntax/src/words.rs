@@ -2,8 +2,11 @@
 //! spells the same words as rules; a test below holds it against these lists.
 
 use std::borrow::Cow;
+use std::sync::LazyLock;
 
 use crate::render::is_steering;
+
+const GRAMMAR: &str = include_str!("motet.pest");
 
 /// Words that are never a bare name in the text syntax: the rule `reserved` of the grammar.
 pub const RESERVED: [&str; 26] = [
@@ -42,32 +45,25 @@ pub const CALL_KEYS: [&str; 5] = ["do", "as", "manner", "within", "retry"];
 /// Key of a deadline in JSON. It names the form of a step only if no other key does.
 pub const DEADLINE: &str = "within";
 
-/// Keys of all other JSON steps, conditions and terms, each with the form that it belongs to. `on` and
+/// Keys of all other JSON steps that name their form.
+pub const STEP_KEYS: [&str; 11] =
+    ["let", "if", "wait", "monitor", "try", "repeat", "each", "parallel", "keep", "end", "sequence"];
+
+/// Keys of parts of JSON steps, of conditions and of terms, each with the form that it belongs to. `on` and
 /// `result` are not among them: `on` names the failures of a `catch`, and `result` the result of a `done`.
 /// Neither has arguments, and `on` is the natural name for a support.
-pub const FORM_KEYS: [(&str, &str); 29] = [
-    ("let", "a step of its own"),
+pub const FORM_KEYS: [(&str, &str); 18] = [
     ("be", "`let`"),
-    ("if", "a step of its own"),
     ("then", "`if` and to a monitor's `when`"),
     ("else", "`if`"),
-    ("wait", "a step of its own"),
-    ("monitor", "a step of its own"),
     ("during", "`monitor`"),
-    ("try", "a step of its own"),
     ("catch", "`try`"),
     ("finally", "the steps that have steps of their own"),
-    ("repeat", "a step of its own"),
     ("until", "`repeat`"),
     ("steps", "`sequence`, `repeat`, `each`, `within` and `keep`"),
-    ("each", "a step of its own"),
     ("in", "`each`"),
     ("at_most", "`each` and to the reactions"),
-    ("parallel", "a step of its own"),
-    ("keep", "a step of its own"),
-    ("end", "a step of its own"),
     ("why", "`end`"),
-    ("sequence", "a step of its own"),
     ("when", "`monitor`"),
     ("for", "a monitor's `when`"),
     ("react", "a monitor's `then`"),
@@ -77,9 +73,23 @@ pub const FORM_KEYS: [(&str, &str); 29] = [
     ("of", "`field`"),
 ];
 
-/// Form that a key of [`FORM_KEYS`] belongs to, in words. `None` for any other key.
+/// Checks if a text is a keyword of the text syntax, by the rules `kw_…` of the grammar. Those outside of
+/// [`RESERVED`] can be names elsewhere.
+#[must_use]
+pub fn is_keyword(text: &str) -> bool {
+    static KEYWORDS: LazyLock<Vec<&str>> = LazyLock::new(|| {
+        let rules = GRAMMAR.lines().filter(|line| line.starts_with("kw_"));
+        rules.filter_map(|rule| rule.split('"').nth(1)).collect()
+    });
+    KEYWORDS.contains(&text)
+}
+
+/// Form that a key of [`STEP_KEYS`] or [`FORM_KEYS`] belongs to, in words. `None` for any other key.
 #[must_use]
 pub fn json_key_owner(key: &str) -> Option<&'static str> {
+    if STEP_KEYS.contains(&key) {
+        return Some("a step of its own");
+    }
     FORM_KEYS.iter().find(|(known, _)| *known == key).map(|(_, owner)| *owner)
 }
 
@@ -128,9 +138,7 @@ pub(crate) fn spelled(name: &str) -> Cow<'_, str> {
 
 #[cfg(test)]
 mod tests {
-    use super::{CLAUSES, DECLARATIONS, RESERVED, STEP_WORDS};
-
-    const GRAMMAR: &str = include_str!("motet.pest");
+    use super::{CLAUSES, DECLARATIONS, GRAMMAR, RESERVED, STEP_WORDS, is_keyword};
 
     /// Words between double quotes in the definition of a rule.
     fn words_of(rule: &str) -> Vec<&'static str> {
@@ -147,8 +155,7 @@ mod tests {
     #[test]
     fn keywords_are_rules_of_the_grammar() {
         for word in DECLARATIONS.iter().chain(&CLAUSES).chain(&RESERVED) {
-            let rule = format!("\nkw_{word} ");
-            assert!(GRAMMAR.contains(&rule), "{word}");
+            assert!(is_keyword(word), "{word}");
         }
         assert!(STEP_WORDS.iter().all(|word| RESERVED.contains(word)));
     }

@@ -11,7 +11,7 @@ use motet_compiler::Session;
 use motet_geometry::planning::{
     MotionAnswer, MotionQuery, QueryContext, RobotModel, SceneState, SearchBudget,
 };
-use motet_project::{DiagnosticSink, open_robot, read_scene, read_state_into, require};
+use motet_project::{DiagnosticSink, SessionInputs, open_robot, read_scene, read_state_into, require};
 use motet_robots::clearance::ClearanceOverride;
 use motet_robots::scene::{self, Scene};
 use motet_syntax::{Diagnostic, Sources};
@@ -94,10 +94,9 @@ pub fn decide<S: DiagnosticSink>(
     let state =
         question.state.map(|path| read_state_into(&mut scene, path, &mut sources, sink)).transpose()?;
     let machine = RobotModel::new(&robot, &urdf);
-    let session = Session::builder().robot(&robot).scene(&scene).state(state.as_ref()).build(&mut sources);
+    let inputs = SessionInputs::of(&robot, &scene, state.as_ref());
+    let session = inputs.open("robot or scene", &mut sources, sink)?;
     let queries = queries(question.motions, (&machine, &scene), &session, &mut sources, sink)?;
-    let diagnostics = session.input_diagnostics().to_vec();
-    require("robot or scene", &diagnostics, &sources, sink)?;
     Ok(decide_in((&machine, &scene), queries, question.effort, &mut |verdict| {
         each(sink, verdict);
         ControlFlow::Continue(())

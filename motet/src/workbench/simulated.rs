@@ -105,7 +105,6 @@ impl Observer for ItemRecorder {
     }
 
     fn verifier(&mut self) -> Option<&mut dyn Verifier> {
-        let guard: &mut dyn Verifier = self.guard.as_mut()?;
-        Some(guard)
+        self.guard.as_mut().map(|guard| guard as &mut dyn Verifier)
     }
 }

@@ -65,7 +65,7 @@ impl Testbed {
         effort: Option<SearchBudget>,
     ) -> Result<Self, String> {
         let open = |inputs: &SessionInputs<'_>| {
-            inputs.open(&mut Sources::default(), &mut Discard).map_err(|error| {
+            inputs.open("scene", &mut Sources::default(), &mut Discard).map_err(|error| {
                 let first = error.diagnostics().first();
                 first.map_or_else(|| error.to_string(), |error| format!("{}: {}", error.code, error.message))
             })
@@ -104,12 +104,7 @@ impl Testbed {
         let robot = &body.robot;
         let fact = |(fluent, holds): (&SmolStr, &bool)| (written(fluent), (Some(*holds), Span::default()));
         let state = InitialState { facts: posture.iter().map(fact).collect(), grip: None };
-        let inputs = SessionInputs {
-            robot: Some(robot),
-            scene: Some(scene),
-            state: Some(&state).filter(|_| !posture.is_empty()),
-            ..SessionInputs::default()
-        };
+        let inputs = SessionInputs::of(robot, scene, Some(&state).filter(|_| !posture.is_empty()));
         let base = open(&inputs)?;
         let (session, geometry) = match (effort, &body.urdf) {
             (Some(budget), Some(urdf)) => inputs.add_motions(base.clone(), urdf, budget),

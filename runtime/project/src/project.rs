@@ -131,6 +131,12 @@ impl ProjectBuilder {
         Some((self.clearance, self.effort?))
     }
 
+    /// Settings of the checks of documents.
+    #[must_use]
+    pub fn check_options(&self) -> CheckOptions {
+        CheckOptions { max_duration_secs: self.max_duration_secs }
+    }
+
     /// Leaves out the domain with a path, as for a check of that file itself.
     #[must_use]
     pub fn without_domain(mut self, path: &Path) -> Self {
@@ -317,9 +323,9 @@ impl Project {
             scene: self.scene.as_ref(),
             state: self.state.as_ref(),
             domains: &self.domains,
-            options: CheckOptions { max_duration_secs: self.inputs.max_duration_secs },
+            options: self.inputs.check_options(),
         };
-        let mut session = inputs.open(&mut sources, sink)?;
+        let mut session = inputs.open("robot, scene, state or domain", &mut sources, sink)?;
         let mut geometry = None;
         if let (Some(effort), Some(files), Some(robot), Some(scene)) =
             (self.inputs.effort, &files, &robot, inputs.scene)
@@ -356,14 +362,21 @@ pub struct SessionInputs<'a> {
     pub options: CheckOptions,
 }
 
-impl SessionInputs<'_> {
-    /// Builds the session, in which motions are deferred to the run.
+impl<'a> SessionInputs<'a> {
+    /// Inputs of a robot in a scene, without domains.
+    #[must_use]
+    pub fn of(robot: &'a Robot, scene: &'a Scene, state: Option<&'a InitialState>) -> Self {
+        Self { robot: Some(robot), scene: Some(scene), state, ..Self::default() }
+    }
+
+    /// Builds the session, in which motions are deferred to the run. `subject` names the inputs in an error.
     ///
     /// # Errors
     ///
     /// The scene, the state or a domain does not fit the robot.
     pub fn open(
         &self,
+        subject: &'static str,
         sources: &mut Sources,
         sink: &mut dyn DiagnosticSink,
     ) -> Result<Session, ProjectError> {
@@ -374,7 +387,7 @@ impl SessionInputs<'_> {
             .state(self.state)
             .options(self.options)
             .build(sources);
-        require("robot, scene, state or domain", session.input_diagnostics(), sources, sink)?;
+        require(subject, session.input_diagnostics(), sources, sink)?;
         Ok(session)
     }
 
@@ -419,6 +432,9 @@ impl ProjectSession {
     /// Facts that the state says beside or against the scene, in order. What it makes unknown comes first.
     #[must_use]
     pub fn told_facts(&self) -> Vec<(Query, Truth)> {
+        if self.inputs.state.is_none() {
+            return Vec::new();
+        }
         let without = self.session.with_scene(self.scene.as_ref(), None);
         let keyed = |fact: (Query, Truth)| (format!("{:?}", fact.0), fact);
         let facts =

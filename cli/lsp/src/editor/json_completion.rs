@@ -2,20 +2,15 @@
 
 use motet_compiler::Session;
 use motet_syntax::Parsed;
+use motet_syntax::json::policy_schema;
 use motet_syntax::text::lexer::{TokenKind, tokens};
+use motet_syntax::words::{DEADLINE, STEP_KEYS};
+use serde_json::Value;
 use smol_str::SmolStr;
 
 use super::completion::{Completer, Completion, Suggestion, SuggestionKind};
 use super::context::ArgumentPlace;
 use super::point::{PointState, step_at};
-
-/// Keys with which a step begins.
-const STEP_KEYS: [&str; 14] = [
-    "do", "let", "sequence", "if", "wait", "monitor", "try", "repeat", "each", "parallel", "within", "keep",
-    "end", "finally",
-];
-/// Keys of a policy.
-const POLICY_KEYS: [&str; 7] = ["motet", "policy", "robot", "achieves", "keep", "steps", "finally"];
 
 /// Place in a JSON document.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
@@ -93,16 +88,20 @@ fn keys(completer: &Completer<'_>, place: &JsonPlace) -> Completion {
     let has = |name: &str| place.members.iter().any(|(key, _)| key == name);
     let callee = place.members.iter().find(|(key, _)| key == "do").map(|(_, name)| name);
     let mut keys: Vec<(String, SuggestionKind)> = Vec::new();
-    let word = |key: &&str| ((*key).to_owned(), SuggestionKind::Keyword);
+    let word = |key: &str| (key.to_owned(), SuggestionKind::Keyword);
     match callee {
         Some(callee) => {
             let callable = completer.signatures.callable(callee);
             let params = callable.iter().flat_map(|callable| &callable.params);
             keys.extend(params.map(|param| (param.name.to_string(), SuggestionKind::Label)));
-            keys.extend(["as", "within", "retry", "manner"].iter().map(word));
+            keys.extend(["as", "within", "retry", "manner"].map(word));
         }
-        None if place.around.is_none() => keys.extend(POLICY_KEYS.iter().map(word)),
-        None => keys.extend(STEP_KEYS.iter().map(word)),
+        None if place.around.is_none() => {
+            let schema = policy_schema();
+            let properties = schema.get("properties").and_then(Value::as_object);
+            keys.extend(properties.into_iter().flatten().map(|(key, _)| word(key)));
+        }
+        None => keys.extend(STEP_KEYS.into_iter().chain(["do", DEADLINE, "finally"]).map(word)),
     }
     let suggestions = keys.into_iter().filter(|(key, _)| !has(key)).map(|(key, kind)| {
         let insert = if place.is_quoted { key.clone() } else { format!("\"{key}\": ") };
@@ -229,7 +228,7 @@ mod tests {
         let detect = r#"{"do": "detect", "what": "red mug", "as": "m"}, "#;
         check(&format!(r#"{go}{detect}{{"do": "pick", "object": "|"}}"#), &["$m"], &["m"]);
         check(r#"{"do": "pick", "|"}"#, &["object", "from", "as"], &["do", "if"]);
-        check(r#"{|"#, &["\"do\": ", "\"if\": "], &["do"]);
+        check(r#"{|"#, &["\"do\": ", "\"if\": ", "\"within\": "], &["do", "\"then\": "]);
         check(r#"{"end": "|"}"#, &["done", "replan"], &["go"]);
         check(r#"{"try": [], "catch": [{"on": ["|"]}]}"#, &["timeout"], &["go"]);
     }

@@ -4,17 +4,11 @@
 use std::collections::BTreeMap;
 
 use motet_syntax::text::lexer::{Token, TokenKind, tokens as lexed};
-use motet_syntax::words::{CLAUSES, DECLARATIONS, RESERVED};
+use motet_syntax::words::is_keyword;
 use motet_syntax::{Parsed, Syntax, unit};
 
 use super::declarations::{DeclarationKind, Declarations};
 use super::names::{NameSpace, Occurrence, occurrences};
-
-/// Words of the language that can be names elsewhere.
-const CONTEXT_WORDS: [&str; 18] = [
-    "world", "for", "achieves", "keep", "out", "of", "within", "retry", "slowly", "gently", "at", "most",
-    "as", "in", "pause", "restart", "resume", "List",
-];
 
 /// Class of a token.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -129,14 +123,7 @@ fn word_class(token: Token<'_>, before: Option<Token<'_>>) -> Option<TokenClass>
             let is_unit = before.is_some_and(|before| {
                 before.kind == TokenKind::Number && unit::parse_quantity(&format!("1 {text}")).is_some()
             });
-            let lists = [&RESERVED[..], &DECLARATIONS, &CLAUSES, &CONTEXT_WORDS];
-            if is_unit {
-                Some(TokenClass::Number)
-            } else if lists.iter().any(|list| list.contains(&text)) {
-                Some(TokenClass::Keyword)
-            } else {
-                None
-            }
+            if is_unit { Some(TokenClass::Number) } else { is_keyword(text).then_some(TokenClass::Keyword) }
         }
         TokenKind::Quoted | TokenKind::Mark | TokenKind::Open => None,
     }

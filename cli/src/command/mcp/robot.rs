@@ -10,7 +10,7 @@ use std::time::Duration;
 use motet::run::journal_head;
 use motet_compiler::Session;
 use motet_host::journal::JournalWriter;
-use motet_planner::dialogue::{Conversation, DialogueSetup, OnInstruction};
+use motet_planner::dialogue::{Conversation, OnInstruction};
 use motet_planner::runtime_check::Guard;
 use motet_runtime::journal::JournalHead;
 use motet_runtime::{Driver, Time};
@@ -26,6 +26,7 @@ use crate::error::CliError;
 use crate::flags::{DriverArgs, EnvironmentArgs, Speed};
 use crate::questions::{QuestionDriver, answering};
 use crate::ready_driver::{ReadyDriver, RunSubject, open_driver};
+use crate::swap_checker::dialogue_setup;
 
 /// Interval at which the driver is looked after between runs.
 const REST: Duration = Duration::from_millis(50);
@@ -45,7 +46,6 @@ pub(crate) struct RunOrder {
 pub(crate) struct RobotInputs<'a> {
     pub(crate) driver: &'a DriverArgs,
     pub(crate) environment: &'a EnvironmentArgs,
-    pub(crate) max_duration: Option<f64>,
     /// Folder for the journals.
     pub(crate) journals: &'a Path,
     pub(crate) situations: &'a AgentEnvironments,
@@ -62,14 +62,8 @@ pub(crate) fn serve(
     let project = &opened.project;
     let id = motet::run::run_id();
     let subject = RunSubject { run: &id, policy: None, opened: project };
-    let setup = project.robot.clone().map(|robot| DialogueSetup {
-        robot,
-        scene: project.scene.clone().unwrap_or_default(),
-        domains: project.domains.clone(),
-        geometry: project.geometry.clone(),
-        options: motet_compiler::CheckOptions { max_duration_secs: inputs.max_duration },
-    });
-    let setup = setup.ok_or_else(|| CliError::Message("`--drive` needs a robot: give --robot NAME".into()));
+    let setup = dialogue_setup(project)
+        .ok_or_else(|| CliError::Message("`--drive` needs a robot: give --robot NAME".into()));
     let driver = open_driver(inputs.driver, inputs.environment, &subject, &mut StderrSink);
     let (setup, driver) = match setup.and_then(|setup| Ok((setup, driver?))) {
         Ok(opened) => opened,

@@ -169,8 +169,7 @@ impl Observer for RunWatch<'_, '_> {
     }
 
     fn verifier(&mut self) -> Option<&mut dyn Verifier> {
-        let guard: &mut dyn Verifier = self.guard.as_mut()?;
-        Some(guard)
+        self.guard.as_mut().map(|guard| guard as &mut dyn Verifier)
     }
 
     fn swap(&mut self, _now: Time, engine: &Engine) -> Option<PreparedSwap> {

@@ -3,10 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use motet_compiler::Session;
 use motet_geometry::mjcf;
 use motet_geometry::planning::RobotModel;
-use motet_project::{open_robot, read_scene, read_state_into, require};
+use motet_project::{SessionInputs, open_robot, read_scene, read_state_into, require};
 use motet_robots::scene;
 use motet_syntax::Sources;
 
@@ -47,8 +46,7 @@ pub(crate) fn run(args: &MjcfArgs, report: &mut Report) -> Result<Exit, CliError
     require("scene", &scene::fit(&room, &urdf), &sources, report)?;
     if let Some(state) = &args.state {
         let state = read_state_into(&mut room, state, &mut sources, report)?;
-        let session = Session::builder().robot(&robot).scene(&room).state(&state).build(&mut sources);
-        require("state", session.input_diagnostics(), &sources, report)?;
+        SessionInputs::of(&robot, &room, Some(&state)).open("state", &mut sources, report)?;
     }
     let model = mjcf::write(&RobotModel::new(&robot, &urdf), &urdf, &room)
         .map_err(|error| CliError::Message(error.to_string()))?;

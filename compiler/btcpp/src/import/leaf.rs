@@ -124,8 +124,8 @@ impl<'a, 't> Reader<'_, 'a, 't> {
     pub(super) fn subtree(&mut self, node: Node<'a, 't>, context: &Context) -> Vec<Step> {
         let span = self.places.tag(node);
         let id = node.attribute("ID").unwrap_or_default();
-        let Some((_, tree)) = self.trees.iter().find(|(known, _)| *known == id).copied() else {
-            let near = closest(id, self.trees.iter().map(|(known, _)| *known));
+        let Some(tree) = self.trees.get(id).copied() else {
+            let near = closest(id, self.trees.keys().copied());
             let help = near.map(|near| format!("did you mean `{near}`?"));
             self.wrong(span, format!("there is no tree `{id}`"), help);
             return Vec::new();

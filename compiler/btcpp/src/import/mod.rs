@@ -11,7 +11,7 @@ mod value;
 
 pub use document::MAX_XML_NODES;
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 use motet_syntax::ast::{Block, Expr, File, Item, MAX_NESTING, Name, Policy, Step};
 use motet_syntax::{Diagnostic, FileId, Severity, Source, Span};
@@ -57,8 +57,8 @@ pub fn import(source: &Source, file: FileId, leaves: &Leaves) -> (Option<File>, 
         Err(mistake) => return (None, vec![mistake.into()]),
     };
     let root = document.root_element();
-    let mut reader =
-        Reader { places, leaves, trees: Vec::new(), found: Vec::new(), steps: 0, helps: false, calls: 0 };
+    let (trees, found) = (BTreeMap::new(), Vec::new());
+    let mut reader = Reader { places, leaves, trees, found, steps: 0, helps: false, calls: 0 };
     let policy = reader.main(root);
     let is_refused = reader.found.iter().any(|found| found.severity == Severity::Error);
     let policy = policy.filter(|_| !is_refused);
@@ -74,7 +74,7 @@ struct Reader<'l, 'a, 't> {
     places: Places,
     leaves: &'l Leaves,
     /// Trees by their names.
-    trees: Vec<(&'a str, Node<'a, 't>)>,
+    trees: BTreeMap<&'a str, Node<'a, 't>>,
     found: Vec<Diagnostic>,
     /// Number of steps so far.
     steps: usize,
@@ -115,14 +115,16 @@ impl<'a, 't> Reader<'_, 'a, 't> {
             self.found.push(NotTree { span, problem }.into());
             return None;
         }
-        let mut known = BTreeSet::new();
         for part in elements(root) {
             let span = self.places.tag(part);
             match (part.tag_name().name(), part.attribute("ID")) {
-                ("BehaviorTree", Some(id)) if !known.insert(id) => {
-                    self.found.push(NotTree { span, problem: format!("there are two trees `{id}`") }.into());
+                ("BehaviorTree", id) => {
+                    let id = id.unwrap_or("tree");
+                    if self.trees.insert(id, part).is_some() {
+                        let problem = format!("there are two trees `{id}`");
+                        self.found.push(NotTree { span, problem }.into());
+                    }
                 }
-                ("BehaviorTree", id) => self.trees.push((id.unwrap_or("tree"), part)),
                 ("TreeNodesModel", _) => {}
                 (other, _) => {
                     let help = "put all trees into one file".to_owned();
@@ -131,12 +133,11 @@ impl<'a, 't> Reader<'_, 'a, 't> {
             }
         }
         let named = root.attribute("main_tree_to_execute");
-        let main = match (named, self.trees.as_slice()) {
-            (None, [only]) => Some(*only),
-            (None, _) => None,
-            (Some(name), trees) => trees.iter().find(|(known, _)| *known == name).copied(),
+        let main = match named {
+            None => self.trees.first_key_value().filter(|_| self.trees.len() == 1),
+            Some(name) => self.trees.get_key_value(name),
         };
-        let Some((name, tree)) = main else {
+        let Some((&name, &tree)) = main else {
             let problem = match named {
                 Some(name) => format!("there is no tree `{name}`"),
                 None => "`main_tree_to_execute` does not say which tree is the main one".to_owned(),

@@ -475,8 +475,7 @@ impl Observer for LiveRun<'_, '_> {
     }
 
     fn verifier(&mut self) -> Option<&mut dyn Verifier> {
-        let guard: &mut dyn Verifier = self.guard.as_mut()?;
-        Some(guard)
+        self.guard.as_mut().map(|guard| guard as &mut dyn Verifier)
     }
 
     fn reached(&mut self, now: Time) -> RunControl {
