@@ -344,13 +344,13 @@ class Tasks(Mover):
                     self.trail.clear()
                     continue
                 yield from self.follow(self.path(part, motion), what)
-        if not any(phase == "release" for phase, _ in parts) and any(phase == "grip" for phase, _ in parts):
-            yield from self.grip(False, 0.6)
-            yield from self.straight(-0.08 * world.tip()[1][:, 2], motion)
         far, whole = drawn or (1.0, 1.0)
         is_open = world.is_open(what) if self.beliefs.oracle else opens if far >= OPENED * whole else None
         # After a motion that failed, only a look tells how far it came.
         self.beliefs.opened(what, is_open)
+        if not any(phase == "release" for phase, _ in parts) and any(phase == "grip" for phase, _ in parts):
+            yield from self.grip(False, 0.6)
+            yield from self.straight(-0.08 * world.tip()[1][:, 2], motion)
         yield from self.home_again(begun, motion)
         self.glance()
         is_open = self.room.is_open(what)
