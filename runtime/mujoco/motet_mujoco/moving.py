@@ -149,12 +149,13 @@ class Mover:
     def straight(self, way, motion, share=0.8):
         """Moves the hand along a short straight line in the map, as far as it goes, nothing is in the way and the robot
         does not touch itself."""
-        world, clearance = self.world, Clearance(self.world, self.beliefs, TOUCHES)
+        world, clearance = self.world, Clearance(self.world, self.beliefs)
+        room = Clearance(self.world, self.beliefs, TOUCHES)
         place, rotation = world.tip()
         target = self.goal
         for step in range(1, 5):
             further = self.reaching(target, place + way * step / 4.0, rotation, clearance)
-            if further is None or not clearance.is_free(self.goal, target, [(target + further) / 2.0, further]):
+            if further is None or not room.is_free(self.goal, target, [(target + further) / 2.0, further]):
                 break
             target = further
         target = target.copy()
@@ -258,7 +259,7 @@ class Mover:
             first = self.path([start, lifted, after, *points[3:]], motion).strokes
             strokes[: 1 if len(points) > 2 else 2] = first
         watch = self.keeps(thing, "fell on the way back")
-        points = [point for stroke in strokes for point in stroke.points]
+        points = Path(strokes).points
         free = len(points)
         while thing is not None and not self.is_way(*points[:free], keeps=TOUCHES):
             free -= 1
