@@ -21,9 +21,12 @@ import time
 
 import numpy as np
 
+from .beliefs import Beliefs
 from .chance import Chance, profile
+from .jaw import spared
 from .model import Model, ModelError, find_motet, motet
 from .motion import Path, frame_at, gentle, phases, rotation_vector, timed
+from .tasks import FEELS_AT
 from .world import World
 
 SCENES = {"panda": [os.path.join(os.path.dirname(__file__), "scenes", "table.json")]}
@@ -130,8 +133,11 @@ def draw_back(world, far=0.08, share=0.5):
 def reach(world, arguments, points, _witness, share):
     thing = arguments[0]
     before = world.pose(thing)[0]
+    points, feels = spared(world, Beliefs(world), points, thing)
     error = follow(world, points, share)
     moved = np.linalg.norm(world.pose(thing)[0] - before)
+    if feels and not world.feels_touch():
+        follow(world, [points[-1], *feels], share * FEELS_AT, until=world.feels_touch)
     close(world)
     if not world.holds(thing):
         return False, "no grip from two sides%s" % (", pushed %.0f mm" % (moved * 1e3) if moved > 0.005 else ""), error
