@@ -65,6 +65,8 @@ class Model:
             raise ModelError("MuJoCo does not take the model: %s" % error) from None
         # Soft contacts creep under the force of a hand, until a can leaves the jaw: this solver holds them.
         self.mj.opt.noslip_iterations = NOSLIP
+        # What sleeps leaves few constraints, for which a dense solver is faster, most of all with a thing in the hand.
+        self.mj.opt.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
         m = self.mj
         self.scene = json.loads(self.text("scene"))
         self.entities = {entity["id"]: entity for entity in self.scene["entities"]}
