@@ -24,7 +24,7 @@ import numpy as np
 from .beliefs import Beliefs
 from .chance import Chance, profile
 from .jaw import spared
-from .model import Model, ModelError, find_motet, motet
+from .model import Model, ModelError, find_motet, motet, save
 from .motion import Path, frame_at, gentle, phases, rotation_vector, timed
 from .tasks import FEELS_AT
 from .world import World
@@ -250,8 +250,7 @@ def puts(command, robot, scene, folder):
         # What stands on it would fall.
         held["entities"] = [e for e in held["entities"] if e.get("on") != thing["id"]]
         path = os.path.join(folder, "%d.json" % things.index(thing))
-        with open(path, "w", encoding="utf-8") as out:
-            json.dump(held, out)
+        save(path, held)
         yield path, ["put(%s, %s)" % (quoted(thing["id"]), quoted(support)) for support in supports]
 
 

@@ -47,6 +47,14 @@ def motet(command, *arguments, ok=(0,)):
     return done.stdout
 
 
+def save(path, scene):
+    """Writes a scene into a file: beside it first, so that nobody ever reads a part of one."""
+    text, beside = json.dumps(scene), "%s.%d" % (path, os.getpid())
+    with open(beside, "w", encoding="utf-8") as out:
+        out.write(text)
+    os.replace(beside, path)
+
+
 def name(text):
     """A name as the model writes it: `/`, `%` and control characters as in a URL."""
     if text == "world":
