@@ -23,10 +23,9 @@ import numpy as np
 
 from .beliefs import Beliefs
 from .chance import Chance, profile
-from .jaw import spared
+from .jaw import FEELS_AT, spared
 from .model import Model, ModelError, find_motet, motet, save
 from .motion import Path, frame_at, gentle, phases, rotation_vector, timed
-from .tasks import FEELS_AT
 from .world import World
 
 SCENES = {"panda": [os.path.join(os.path.dirname(__file__), "scenes", "table.json")]}

@@ -9,7 +9,7 @@ import itertools
 import mujoco
 import numpy as np
 
-from .clearance import Clearance
+from .clearance import TOUCHES, Clearance
 from .motion import Path, frame_at, gentle, limits, near_turn, timed, witnessed
 from .planner import START, quoted, stand_at
 from .trail import Trail
@@ -33,8 +33,6 @@ ASIDE = 1.0
 LETS_GO = (0.01, 0.02)
 # Heights in m by which the hand may go back above the way that it came.
 RAISES = (0.06, 0.12, 0.18, 0.24)
-# Distances in m that base and arm keep on a way on which they touch nothing.
-TOUCHES = {"base": 0.0, "arm": 0.0}
 # Way in m or rad between two checks of a straight way.
 STEP = 0.05
 # Id of what may be in a container.

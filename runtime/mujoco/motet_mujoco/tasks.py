@@ -9,7 +9,7 @@ import numpy as np
 
 from .camera import NoGraphics
 from .eyes import extent
-from .jaw import aside, shifted, spared
+from .jaw import FEELS_AT, aside, shifted, spared
 from .motion import near_turn, phases
 from .moving import INSIDE, POSTURES, SPARE, THINKS, Failed, Motion, Mover
 from .observation import AT_PLACE
@@ -29,8 +29,6 @@ ABOUT_HERE = 2.0
 AIMS = 2
 # Seconds that a look takes once the camera stands still.
 LOOKS = 0.5
-# Share of the greatest speeds at which the hand feels for a thing.
-FEELS_AT = 0.1
 # Distances in m, beyond that of a drive to a person, from which the hand may hold something out, and turns in rad of the
 # base there. Nearer than a drive leads the base comes last: policies keep a distance from people.
 OFFERS, TURNED = (0.0, 0.15, -0.05, -0.1), (0.0, 0.6, -0.6, 1.2, -1.2)
@@ -95,8 +93,8 @@ class Tasks(Mover):
         far, angle = float(np.hypot(*(end[:2] - [x, y]))), float(np.arctan2(end[1] - y, end[0] - x))
         places = [tuple(float(part) for part in end)]
         for off in OFFERS:
-            for aside in (0.0, 0.3, -0.3, 0.8, -0.8):
-                at = angle + aside
+            for beside in (0.0, 0.3, -0.3, 0.8, -0.8):
+                at = angle + beside
                 stand = x + (far + off) * np.cos(at), y + (far + off) * np.sin(at)
                 places.extend((*stand, float(near_turn(at + np.pi + turn, end[2]))) for turn in TURNED)
         for at, (px, py, yaw) in enumerate(places):

@@ -5,10 +5,10 @@ import pytest
 from motet_mujoco.beliefs import Beliefs
 from motet_mujoco.chance import profile
 from motet_mujoco.driver import Driver, Options
-from motet_mujoco.jaw import LEAST, OFFSET, aside, spared
+from motet_mujoco.jaw import LEAST, OFFSET, approach, aside, spared
 from motet_mujoco.judge import carry_out, verdicts
 from motet_mujoco.model import load
-from motet_mujoco.motion import frame_at, straight_parts
+from motet_mujoco.motion import frame_at
 from motet_mujoco.world import World
 
 
@@ -29,7 +29,7 @@ def test_a_fixed_jaw_comes_to_a_thing_with_room_on_its_side(motet):
     moved, feels = spared(world, Beliefs(world), points, "coke")
     across = frame_at(world, points[-1])[1][:, 1]
     off = ways(world, moved) - ways(world, points)
-    last = len(straight_parts(points)[-1])
+    last = len(points) - approach(world, points)
     assert np.allclose(off[:-last], 0.0)
     assert LEAST < abs(off[-1] @ across) < OFFSET + 1e-3 and np.allclose(off[-last:], off[-1], atol=1e-3)
     assert np.allclose(feels[0], points[-1])
@@ -42,10 +42,17 @@ def test_jaws_that_both_move_come_to_a_thing_as_the_witness_says(motet):
     assert moved is points and feels == []
 
 
-def test_aside_moves_the_whole_last_straight_part(motet):
-    """A witness may have waypoints on it: a way that leaves it at one of them has a corner beside the thing."""
+def test_aside_leaves_the_rest_of_the_way(motet):
+    """Else the base, which corrects the error of the hand, would wait for the arm to unfold."""
+    world, points, _ = reach(motet, "hsr", "living_room", "reach(can)")
+    moved = aside(world, points, np.array([0.005, 0.002, 0.0]))
+    assert len(points) == 5 and all(np.array_equal(*pair) for pair in zip(points[:3], moved[:3]))
+
+
+def test_aside_moves_all_points_that_are_near(motet):
+    """A witness may have waypoints beside the thing: a way that leaves it at one of them has a corner there."""
     world, points, _ = reach(motet, "anymal_z1", "living_room", "reach(toy)")
-    last = len(straight_parts(points)[-1])
+    last = len(points) - approach(world, points)
     assert last > 2
     off = ways(world, aside(world, points, np.array([0.0, 0.01, 0.0]))) - ways(world, points)
     assert np.allclose(off[-last:], [0.0, 0.01, 0.0], atol=1e-3) and np.allclose(off[:-last], 0.0)
@@ -75,3 +82,11 @@ def test_the_driver_feels_for_a_thing_before_it_closes(motet):
             driver.tick()
         assert "success" in driver.goals[goal].state["ended"], driver.goals[goal].state
     assert driver.world.held() == ["coke"]
+
+
+def test_spared_does_not_recentre_jaws_with_room_on_both_sides(motet):
+    """A place that was seen anew, a little beside the witness, costs no time."""
+    world, points, _ = reach(motet, "hsr", "kitchen", "reach(mug_1)")
+    beliefs, across = Beliefs(world), frame_at(world, points[-1])[1][:, 1]
+    beliefs.saw("mug_1", world.pose("mug_1")[0] + 0.006 * across)
+    assert spared(world, beliefs, points, "mug_1") == (points, [])
