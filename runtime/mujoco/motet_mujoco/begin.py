@@ -1,13 +1,12 @@
 """Facts at the start, as `hello` lists them: the scene is changed so that the world begins in them."""
 
 import copy
-import json
 import os
 import tempfile
 
 import numpy as np
 
-from .model import ModelError, drawn, load
+from .model import ModelError, drawn, load, save
 from .planner import quoted, rpy
 from .sight import half_height
 
@@ -23,8 +22,7 @@ def model_of(robot, scene, command):
     """The model of a robot in a scene that is no file."""
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "scene.json")
-        with open(path, "w", encoding="utf-8") as out:
-            json.dump(scene, out)
+        save(path, scene)
         try:
             return load(robot, path, command)
         except ModelError as error:

@@ -15,7 +15,6 @@ The errors of hand and camera, of the room and of friction are those of the prof
 
 import argparse
 import copy
-import json
 import os
 import sys
 import tempfile
@@ -28,7 +27,7 @@ from .chance import Chance, profile
 from .disorder import displace
 from .eyes import Eyes, extent
 from .judge import DEFAULT, SCENES, SLIPS, disturbed, follow, interval, quoted, carry_out, trials, verdicts
-from .model import Model, ModelError, find_motet, motet
+from .model import Model, ModelError, find_motet, motet, save
 from .world import World
 
 
@@ -113,8 +112,7 @@ def looks(command, robot, scene, rates, seeds, found):
             stood["robot"].update(base=base, joints=last["joints"], holding=None)
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "stood.json")
-            with open(path, "w", encoding="utf-8") as out:
-                json.dump(stood, out)
+            save(path, stood)
             views = verdicts(command, robot, path, *("look(%s)" % quoted(thing) for thing in things))
             xml = motet(command, "robots", "mjcf", "--robot", robot, "--scene", path)
         for query, witness in views:

@@ -13,6 +13,8 @@ from .motion import set_targets
 
 # Distances in m that base and arm keep where a witness says nothing.
 KEEPS = {"base": 0.04, "arm": 0.01}
+# Those on a way on which they touch nothing.
+TOUCHES = {"base": 0.0, "arm": 0.0}
 # Distance in m by which what is too near anyway may come nearer.
 NEARER = 0.001
 # Distance in m that parts of the robot keep from each other: a little more than motions keep.

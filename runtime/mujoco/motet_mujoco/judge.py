@@ -21,8 +21,10 @@ import time
 
 import numpy as np
 
+from .beliefs import Beliefs
 from .chance import Chance, profile
-from .model import Model, ModelError, find_motet, motet
+from .jaw import FEELS_AT, spared
+from .model import Model, ModelError, find_motet, motet, save
 from .motion import Path, frame_at, gentle, phases, rotation_vector, timed
 from .world import World
 
@@ -130,8 +132,11 @@ def draw_back(world, far=0.08, share=0.5):
 def reach(world, arguments, points, _witness, share):
     thing = arguments[0]
     before = world.pose(thing)[0]
+    points, feels = spared(world, Beliefs(world), points, thing)
     error = follow(world, points, share)
     moved = np.linalg.norm(world.pose(thing)[0] - before)
+    if feels and not world.feels_touch():
+        follow(world, [points[-1], *feels], share * FEELS_AT, until=world.feels_touch)
     close(world)
     if not world.holds(thing):
         return False, "no grip from two sides%s" % (", pushed %.0f mm" % (moved * 1e3) if moved > 0.005 else ""), error
@@ -244,8 +249,7 @@ def puts(command, robot, scene, folder):
         # What stands on it would fall.
         held["entities"] = [e for e in held["entities"] if e.get("on") != thing["id"]]
         path = os.path.join(folder, "%d.json" % things.index(thing))
-        with open(path, "w", encoding="utf-8") as out:
-            json.dump(held, out)
+        save(path, held)
         yield path, ["put(%s, %s)" % (quoted(thing["id"]), quoted(support)) for support in supports]
 
 

@@ -47,6 +47,14 @@ def motet(command, *arguments, ok=(0,)):
     return done.stdout
 
 
+def save(path, scene):
+    """Writes a scene into a file: beside it first, so that nobody ever reads a part of one."""
+    text, beside = json.dumps(scene), "%s.%d" % (path, os.getpid())
+    with open(beside, "w", encoding="utf-8") as out:
+        out.write(text)
+    os.replace(beside, path)
+
+
 def name(text):
     """A name as the model writes it: `/`, `%` and control characters as in a URL."""
     if text == "world":
@@ -65,6 +73,8 @@ class Model:
             raise ModelError("MuJoCo does not take the model: %s" % error) from None
         # Soft contacts creep under the force of a hand, until a can leaves the jaw: this solver holds them.
         self.mj.opt.noslip_iterations = NOSLIP
+        # What sleeps leaves few constraints, for which a dense solver is faster, most of all with a thing in the hand.
+        self.mj.opt.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
         m = self.mj
         self.scene = json.loads(self.text("scene"))
         self.entities = {entity["id"]: entity for entity in self.scene["entities"]}

@@ -1,5 +1,8 @@
 """Motion: paths with times, and inverse kinematics for short straight motions of the hand."""
 
+from bisect import bisect_right
+from itertools import accumulate
+
 import mujoco
 import numpy as np
 
@@ -34,7 +37,8 @@ class Path:
         self.reached = [strokes[0].points[0]]
         for stroke in strokes:
             self.reached.append(self.reached[-1] + (stroke.points[-1] - stroke.points[0]))
-        self.ends = np.maximum.accumulate([start + stroke.span for start, stroke in zip(self.starts, strokes)])
+        ends = [start + stroke.span for start, stroke in zip(self.starts, strokes)]
+        self.ends = np.maximum.accumulate(ends).tolist()
 
     @property
     def points(self):
@@ -43,7 +47,7 @@ class Path:
 
     def at(self, time):
         """Targets, their rates and their accelerations at a time."""
-        first = int(np.searchsorted(self.ends, time, side="right"))
+        first = bisect_right(self.ends, time)
         target = self.reached[first].copy()
         rate, change = np.zeros((2, len(target)))
         for start, stroke in zip(self.starts[first:], self.strokes[first:]):
@@ -113,14 +117,14 @@ class Stroke:
         self.points = [np.array(point, dtype=float) for point in points]
         self.cruise, self.span, self.share = [float(one) for one in cruise], float(span), share
         self.ramp = min(float(ramp), self.span / 2.0)
-        self.passed = np.concatenate([[0.0], np.cumsum(self.cruise)])
+        self.passed = list(accumulate(self.cruise, initial=0.0))
 
     def at(self, time):
         """How far the targets have moved since the start, their rates and their accelerations."""
         if time >= self.span or self.passed[-1] < 1e-9:
             return self.points[-1] - self.points[0], *np.zeros((2, len(self.points[0])))
         done, speed, change = (part * self.passed[-1] for part in trapezoid(time, self.span, self.ramp))
-        leg = min(int(np.searchsorted(self.passed, done, side="right")) - 1, len(self.cruise) - 1)
+        leg = min(bisect_right(self.passed, done) - 1, len(self.cruise) - 1)
         way = (self.points[leg + 1] - self.points[leg]) / max(self.cruise[leg], 1e-9)
         return self.points[leg] - self.points[0] + way * (done - self.passed[leg]), way * speed, way * change
 

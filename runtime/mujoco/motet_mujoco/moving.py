@@ -9,7 +9,7 @@ import itertools
 import mujoco
 import numpy as np
 
-from .clearance import Clearance
+from .clearance import TOUCHES, Clearance
 from .motion import Path, frame_at, gentle, limits, near_turn, timed, witnessed
 from .planner import START, quoted, stand_at
 from .trail import Trail
@@ -25,14 +25,14 @@ RETREATS = (0.15, 0.3, 0.45)
 AROUND = (0.2, 0.1, -0.05)
 # Turns in rad about it, from the direction of the robot.
 TURNS = (0.0, 0.5, -0.5, 1.0, -1.0, 1.5, -1.5, 2.0, -2.0)
-# Way in m of the base up to which a place to put something down from is not compared with others.
+# Turns between them: few places may have a short way to put something down from.
+BETWEEN = (0.25, -0.25, 0.75, -0.75, 1.25, -1.25, 1.75, -1.75)
+# Way in m of the base, beyond a straight drive to a place, up to which that place is not compared with others.
 ASIDE = 1.0
 # Heights in m from which the hand may let go of a thing.
 LETS_GO = (0.01, 0.02)
 # Heights in m by which the hand may go back above the way that it came.
 RAISES = (0.06, 0.12, 0.18, 0.24)
-# Distances in m that base and arm keep on a way on which they touch nothing.
-TOUCHES = {"base": 0.0, "arm": 0.0}
 # Way in m or rad between two checks of a straight way.
 STEP = 0.05
 # Id of what may be in a container.
@@ -145,14 +145,15 @@ class Mover:
             yield
 
     def straight(self, way, motion, share=0.8):
-        """Moves the hand along a short straight line in the map, as far as it goes and the robot does not touch
-        itself."""
+        """Moves the hand along a short straight line in the map, as far as it goes, nothing is in the way and the robot
+        does not touch itself."""
         world, clearance = self.world, Clearance(self.world, self.beliefs)
+        room = Clearance(self.world, self.beliefs, TOUCHES)
         place, rotation = world.tip()
         target = self.goal
         for step in range(1, 5):
             further = self.reaching(target, place + way * step / 4.0, rotation, clearance)
-            if further is None:
+            if further is None or not room.is_free(self.goal, target, [(target + further) / 2.0, further]):
                 break
             target = further
         target = target.copy()
@@ -256,7 +257,7 @@ class Mover:
             first = self.path([start, lifted, after, *points[3:]], motion).strokes
             strokes[: 1 if len(points) > 2 else 2] = first
         watch = self.keeps(thing, "fell on the way back")
-        points = [point for stroke in strokes for point in stroke.points]
+        points = Path(strokes).points
         free = len(points)
         while thing is not None and not self.is_way(*points[:free], keeps=TOUCHES):
             free -= 1
@@ -404,10 +405,7 @@ class Mover:
         scene["robot"]["base"] = [float(part) for part in stand]
         query = "put(%s, %s)" % (quoted(thing), quoted(on))
         witness, _ = self.put_witness(scene, query, thing, self.planner.ask)
-        if witness is None:
-            return np.inf
-        bases = np.array([point["base"][:2] for point in witness["path"]])
-        return float(np.linalg.norm(np.diff(bases, axis=0), axis=1).sum())
+        return np.inf if witness is None else driven(witness)
 
     def put_witness(self, scene, query, thing, ask):
         """(witness, None), or (None, why), of a motion that puts a thing down in a room. Where the fingers
@@ -426,13 +424,15 @@ class Mover:
         return witness, None if witness is not None else why
 
     def around(self, query, one, place, spot, motion, until=np.inf, way=None):
-        """Moves the base to where a motion is feasible, at a place near a spot, the nearest directions first:
-        one from which what comes next has a short way, as `way` says, else the one with the shortest. `place`
-        is where an entity is supposed to be. True if there is such a place to which it comes by a time."""
+        """Moves the base to where a motion is feasible, at a place near a spot, the nearest directions first: one to
+        which the drive is about straight and from which what comes next has a short way, as `way` says, else the one
+        with the shortest way in all. `place` is where an entity is supposed to be. True if there is such a place to
+        which it comes by a time."""
         model, (x, y, yaw) = self.world.model, self.world.base()
         towards, best, least = float(np.arctan2(y - spot[1], x - spot[0])), None, np.inf
-        for off, turn in itertools.product(AROUND if model.drives else (), TURNS):
-            if least <= ASIDE or self.world.now + THINKS > until:
+        offs, turns = AROUND if model.drives else (), (TURNS, BETWEEN) if way else (TURNS,)
+        for off, turn in itertools.chain(*(itertools.product(offs, some) for some in turns)):
+            if self.world.now + THINKS > until:
                 break
             far, angle, scene = model.card[1] + off, towards + turn, self.supposing(one, place)
             stand = spot[0] + far * np.cos(angle), spot[1] + far * np.sin(angle)
@@ -441,13 +441,18 @@ class Mover:
             yield from self.pause(THINKS)
             if self.planner.ask(scene, query)[0] is None:
                 continue
-            cost = 0.0 if way is None else way(stand)
-            if best is not None and cost >= least:
+            straight, then = float(np.hypot(stand[0] - x, stand[1] - y)), 0.0 if way is None else way(stand)
+            if best is not None and straight + then >= least:
                 continue
             witness, _ = self.planner.plan(self.beliefs.now(), stand_at(*stand))
             path = None if witness is None else self.own(witness, motion)
-            if path is not None and self.world.now + path.end <= until:
+            if path is None or self.world.now + path.end > until:
+                continue
+            cost = driven(witness) + then
+            if best is None or cost < least:
                 best, least = path, cost
+            if cost <= straight + ASIDE:
+                break
         if best is None or self.world.now + best.end > until:
             return False
         yield from self.follow(best)
@@ -538,6 +543,12 @@ class Mover:
                     yield from self.follow(self.path([self.goal.copy(), target], motion))
                     return witness
         return None
+
+
+def driven(witness):
+    """Way in m of the base along a witness."""
+    bases = np.array([point["base"][:2] for point in witness["path"]])
+    return float(np.linalg.norm(np.diff(bases, axis=0), axis=1).sum())
 
 
 class Motion:

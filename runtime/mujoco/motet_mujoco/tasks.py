@@ -9,6 +9,7 @@ import numpy as np
 
 from .camera import NoGraphics
 from .eyes import extent
+from .jaw import FEELS_AT, aside, shifted, spared
 from .motion import near_turn, phases
 from .moving import INSIDE, POSTURES, SPARE, THINKS, Failed, Motion, Mover
 from .observation import AT_PLACE
@@ -31,6 +32,10 @@ LOOKS = 0.5
 # Distances in m, beyond that of a drive to a person, from which the hand may hold something out, and turns in rad of the
 # base there. Nearer than a drive leads the base comes last: policies keep a distance from people.
 OFFERS, TURNED = (0.0, 0.15, -0.05, -0.1), (0.0, 0.6, -0.6, 1.2, -1.2)
+
+
+class Felt(Exception):
+    """The hand has felt a thing."""
 
 
 class Tasks(Mover):
@@ -88,8 +93,8 @@ class Tasks(Mover):
         far, angle = float(np.hypot(*(end[:2] - [x, y]))), float(np.arctan2(end[1] - y, end[0] - x))
         places = [tuple(float(part) for part in end)]
         for off in OFFERS:
-            for aside in (0.0, 0.3, -0.3, 0.8, -0.8):
-                at = angle + aside
+            for beside in (0.0, 0.3, -0.3, 0.8, -0.8):
+                at = angle + beside
                 stand = x + (far + off) * np.cos(at), y + (far + off) * np.sin(at)
                 places.extend((*stand, float(near_turn(at + np.pi + turn, end[2]))) for turn in TURNED)
         for at, (px, py, yaw) in enumerate(places):
@@ -184,30 +189,15 @@ class Tasks(Mover):
         if gap > NEAR_GRASP:
             raise Failed("not_found", "the hand closes %.2f m beside %s" % (gap, thing))
 
-    def aside(self, points, off):
-        """Points of a way whose last leg ends elsewhere by an offset of the hand, in m; None out of reach."""
-        world, model = self.world, self.world.model
-        if float(np.linalg.norm(off)) < 1e-4:
-            return points
-        moved = [np.array(point) for point in points]
-        for at in range(max(1, len(points) - 2), len(points)):
-            place, rotation = self.frame(points[at])
-            target = world.reacher.solve(world.data.qpos, moved[at], place + off, rotation)
-            if target is None:
-                return None
-            for grip in model.grips:
-                target[grip] = points[at][grip]
-            moved[at] = target
-        return moved
-
     def grasp(self, thing, query, motion):
         """Reaches a thing and closes the hand around it. Gives the path of the way there."""
         begun = self.goal.copy()
         path = yield from self.motion(motion, query)
-        points = path.points
-        dx, dy = self.options.chance.error(self.options.rates["hand"]["error_m"], "hand", thing)
-        path = path.to(self.aside(points, np.array([dx, dy, 0.0])) or points)
+        points, feels = spared(self.world, self.beliefs, path.points, thing)
+        off = np.array([*self.options.chance.error(self.options.rates["hand"]["error_m"], "hand", thing), 0.0])
+        path = path.to(aside(self.world, points, off) or points)
         yield from self.follow(path, thing)
+        yield from self.feel(feels, off, motion)
         yield from self.grip(True, 0.8)
         if not self.room.grasps(thing):
             # A hand feels if it closes around nothing.
@@ -219,6 +209,23 @@ class Tasks(Mover):
             raise Failed(kind, text % thing)
         self.beliefs.holds(thing, float(self.world.tip()[0][2]))
         return path
+
+    def feel(self, targets, off, motion):
+        """Moves the hand aside until it feels a thing, along targets that are an offset in m elsewhere."""
+        if not targets or self.world.feels_touch():
+            return
+        targets = [shifted(self.world, target, off) for target in targets]
+        if any(target is None for target in targets):
+            return
+
+        def watch():
+            if self.world.feels_touch():
+                raise Felt
+
+        try:
+            yield from self.follow(self.path([self.goal.copy(), *targets], motion, FEELS_AT), watch=watch)
+        except Felt:
+            return
 
     def do_lift(self, args, motion):
         held = self.room.held()
@@ -344,13 +351,13 @@ class Tasks(Mover):
                     self.trail.clear()
                     continue
                 yield from self.follow(self.path(part, motion), what)
-        if not any(phase == "release" for phase, _ in parts) and any(phase == "grip" for phase, _ in parts):
-            yield from self.grip(False, 0.6)
-            yield from self.straight(-0.08 * world.tip()[1][:, 2], motion)
         far, whole = drawn or (1.0, 1.0)
         is_open = world.is_open(what) if self.beliefs.oracle else opens if far >= OPENED * whole else None
         # After a motion that failed, only a look tells how far it came.
         self.beliefs.opened(what, is_open)
+        if not any(phase == "release" for phase, _ in parts) and any(phase == "grip" for phase, _ in parts):
+            yield from self.grip(False, 0.6)
+            yield from self.straight(-0.08 * world.tip()[1][:, 2], motion)
         yield from self.home_again(begun, motion)
         self.glance()
         is_open = self.room.is_open(what)

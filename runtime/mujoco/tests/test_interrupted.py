@@ -5,6 +5,7 @@ import pytest
 from motet_mujoco.chance import profile
 from motet_mujoco.driver import Driver, Options
 from motet_mujoco.model import load
+from motet_mujoco.moving import Motion
 from motet_mujoco.trail import SPACING, Trail
 
 
@@ -78,6 +79,16 @@ def test_a_robot_that_touches_something_goes_back_the_way_it_came(driver):
     assert "at the start" in driver.tasks.planner.plan(driver.beliefs.now(), "posture(home)")[1][1]
     assert "success" in carry_out(driver, "home")["ended"]
     assert is_home(driver)
+
+
+def test_straight_stops_before_what_is_in_the_way(driver):
+    at_thing(driver, reaches(driver, 0.15))
+    before = driver.world.tip()[0][2]
+    way = np.array([0.0, 0.0, -0.3])
+    for _ in driver.tasks.straight(way, Motion(None)):
+        driver.world.step(driver.tasks.goal, driver.tasks.rate, driver.tasks.change)
+    assert not any(driver.world.bumps()) and not driver.world.feels_touch()
+    assert before - 0.3 < driver.world.tip()[0][2] <= before
 
 
 def test_a_thing_that_a_person_took_is_no_longer_where_it_was_carried(driver):

@@ -8,6 +8,8 @@ from host import entity, text
 from motet_mujoco.chance import profile
 from motet_mujoco.driver import Driver, Options
 from motet_mujoco.model import load
+from motet_mujoco.motion import timed
+from motet_mujoco.moving import Motion
 from motet_mujoco.planner import Planner
 
 SPEED, ACCELERATION = 0.3, 0.2
@@ -99,3 +101,21 @@ def test_a_look_follows_the_motion_that_was_sent_and_turns_back(motet, driver, p
     assert "success" in outcome and told == []
     pans = [one[controls["head_pan_joint"]] for one in turned]
     assert np.allclose(pans, [end["joints"]["head_pan_joint"], 0.0]) and pans[0] != 0.0
+
+
+def test_a_way_back_in_parts_stops_nowhere_between_them(driver):
+    """Where what the hand holds would touch something at first, the rest of the way goes by its corners all the same."""
+    tasks, followed = driver.tasks, []
+    points = [driver.world.target.copy() for _ in range(4)]
+    points[1][0] += 0.5
+    points[2][:2] += [0.5, 0.5]
+    points[3][:2] += [1.0, 0.5]
+    path = timed(points, driver.model)
+    tasks.goal[:] = points[-1]
+    tasks.is_way = lambda *ways, **_: len(ways) < 2
+    tasks.home_again = lambda *_: iter(())
+    tasks.follow = lambda path, **_: followed.append(path) or iter(())
+    for _ in tasks.way_back(path, points[0], Motion(None), "mug_1"):
+        pass
+    assert [len(one.strokes) for one in followed] == [1, 3]
+    assert all(stroke.span > 0.0 for stroke in followed[-1].strokes)

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 from motet_mujoco import speed
-from motet_mujoco.model import Model, ModelError, load, motet as call, name
+from motet_mujoco.model import Model, ModelError, load, motet as call, name, save
 from motet_mujoco.world import World
 
 ODD = {"motet_scene": 1, "entities": [
@@ -57,3 +57,11 @@ def test_the_measure_of_speed_carries_a_motion_out(motet, capsys):
     speed.main(["--rounds", "1", "--motet", motet])
     assert "hsr in kitchen, reach(mug_1): " in capsys.readouterr().out
     assert speed.main(["--motion", "reach(plate)", "--motet", motet]) == 2
+
+
+def test_save_writes_a_whole_file_or_none(tmp_path):
+    path = tmp_path / "scene.json"
+    save(str(path), {"entities": []})
+    with pytest.raises(TypeError):
+        save(str(path), {"entities": [], "robot": {1}})
+    assert json.loads(path.read_text()) == {"entities": []}

@@ -59,17 +59,21 @@ def test_a_thing_that_was_taken_out_does_not_come_back(driver):
     assert "pose" not in beliefs.entities["mug_1"]
 
 
-def test_a_place_with_a_short_way_comes_first(driver):
-    """Of the places from which the inside shows, the base drives to one with a short way left."""
-    tasks, stands = driver.tasks, []
-    here = {"path": [{"base": [0.0, 0.0, 0.0], "joints": {}}] * 2}
-    tasks.planner.ask = lambda scene, *_: (here, None)
+def drives(detour):
+    """A planner of drives that lead aside by a way in m first."""
 
     def plan(_scene, query):
-        stands.append(query)
-        return here, None
+        x, y, yaw = (float(part.split()[0]) for part in query.partition("pose(")[2].split(","))
+        way = [[0.0, 0.0, 0.0], [0.0, detour / 2.0, 0.0], [x, y, yaw]]
+        return {"path": [{"base": base, "joints": {}} for base in way]}, None
 
-    tasks.planner.plan = plan
+    return plan
+
+
+def test_a_place_with_a_short_way_comes_first(driver):
+    """Of the places from which the inside shows, the base drives to one with a short way left."""
+    tasks = driver.tasks
+    tasks.planner.ask, tasks.planner.plan = (lambda *_: ("shows", None)), drives(0.0)
     costs = iter([np.inf, 3.0, 5.0, 0.5 * ASIDE, 0.0])
     tried = []
 
@@ -78,10 +82,28 @@ def test_a_place_with_a_short_way_comes_first(driver):
         return tried[-1][1]
 
     spot = driver.beliefs.places("drawer_1", True)[0]
+    tasks.follow = lambda _path: iter(())
     search = tasks.around("look(inside)", "inside", spot, spot, Motion(None), np.inf, way)
     for _ in search:
         pass
     assert [cost for _, cost in tried] == [np.inf, 3.0, 5.0, 0.5 * ASIDE], "it is near enough"
+
+
+@pytest.mark.parametrize("detour, stands", [(0.0, 1), (20.0, 51)])
+def test_a_place_to_which_the_drive_is_long_is_compared_with_others(driver, detour, stands):
+    """A place with a short way left may be on the far side of what stands open."""
+    tasks, tried = driver.tasks, []
+    tasks.planner.ask, tasks.planner.plan = (lambda *_: ("shows", None)), drives(detour)
+    spot = driver.beliefs.places("drawer_1", True)[0]
+
+    def way(stand):
+        tried.append(stand)
+        return 0.0
+
+    tasks.follow = lambda _path: iter(())
+    for _ in tasks.around("look(inside)", "inside", spot, spot, Motion(None), np.inf, way):
+        pass
+    assert len(tried) == stands
 
 
 def test_a_corner_is_checked_all_along(driver):
