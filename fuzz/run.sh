@@ -15,7 +15,7 @@ if [ "$engine" = libfuzzer ]; then
     coverage='-Cpasses=sancov-module -Cllvm-args=-sanitizer-coverage-level=4 -Cllvm-args=-sanitizer-coverage-trace-compares
         -Cllvm-args=-sanitizer-coverage-inline-8bit-counters -Cllvm-args=-sanitizer-coverage-pc-table'
     RUSTFLAGS="$(echo $coverage) --cfg fuzzing" cargo build --locked --profile fuzz --target "$host" --features libfuzzer --bin libfuzzer
-    names=$(sed -n 's/^    ("\([a-z_]*\)",.*/\1/p' src/targets.rs)
+    names=$(sed -n 's/^    ("\([a-z0-9_]*\)",.*/\1/p' src/targets.rs)
 else
     cargo build --locked --profile fuzz --target "$host" --bin mutate
     names=$("$out/mutate")
@@ -35,7 +35,7 @@ seed() {
         pddl) for domain in ../tests/pddl/*; do { cat "$domain"/domain.pddl; echo '%%'; cat "$domain"/problem.pddl; } >"$folder/$(basename "$domain")"; done ;;
         ros2_binding) cp ../runtime/ros2/bindings/*.toml "$folder" ;;
         ros2_layouts) cp ../runtime/ros2/layouts/*.layouts "$folder" ;;
-        # Messages of zeros, of as many types as there are first bytes.
+        # A message of zeros of each type.
         ros2_message) for type in $(seq 0 120); do { printf "\\x$(printf %x "$type")"; head -c 600 /dev/zero; } >"$folder/zeros_$type"; done ;;
         journal | graph) cp corpus/"$1".* "$folder" ;;
     esac

@@ -51,7 +51,10 @@ pub(crate) fn open_driver(
     let file = subject.policy.map_or(&none, |(_, parsed)| &parsed.file);
     match address(args, &environment.or_of(subject.opened), file)? {
         Some(address) => {
-            if args.faults.is_some() || args.answers.is_some() {
+            let files: Vec<_> = args.faults.iter().chain(&args.answers).collect();
+            // Only the driver reads what can be read once, such as a pipe.
+            let is_pipe = files.iter().any(|path| path.metadata().is_ok_and(|data| !data.is_file()));
+            if !files.is_empty() && !is_pipe {
                 // Physics is not started for a script that nobody can play.
                 args.inputs(None, report)?.check_names(&subject.opened.session.signatures())?;
             }

@@ -238,6 +238,9 @@ impl Search<'_> {
         at: &Candidate,
         depth: usize,
     ) -> Option<(Candidate, Vec<AppliedFix>)> {
+        if self.tries == 0 {
+            return None;
+        }
         let mut order = self.session.findings(&at.parsed, None, RepairSearch::All);
         order.sort_by_key(|found| std::cmp::Reverse(found.diagnostic.severity));
         let mut promising = Vec::new();

@@ -13,6 +13,7 @@ import random
 import socket
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 
@@ -69,18 +70,28 @@ def free_port():
         return listener.getsockname()[1]
 
 
-def request(path, body, port):
+def request(path, body, port, session=""):
     head = (f"POST {path} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nAuthorization: Bearer {TOKEN}\r\n"
             "Content-Type: application/json\r\nAccept: application/json, text/event-stream\r\n"
-            f"Connection: close\r\nContent-Length: {len(body)}\r\n\r\n")
+            f"{session}Connection: close\r\nContent-Length: {len(body)}\r\n\r\n")
     return head.encode() + body
 
 
-def mutated(dice, seed, path, port):
+def session_of(path, port):
+    """Header of a new session, if the server opens one for the first seed of MCP."""
+    raw = request(path, json.dumps(MCP[0]).encode(), port)
+    with socket.create_connection(("127.0.0.1", port), timeout=SLOW_S) as connection:
+        connection.sendall(raw)
+        answer = connection.recv(65536)
+    lines = [line for line in answer.split(b"\r\n") if line.lower().startswith(b"mcp-session-id:")]
+    return lines[0].decode() + "\r\n" if lines else ""
+
+
+def mutated(dice, seed, path, port, session):
     """A request with a changed body, or changed as a whole, its head included, and if it is complete."""
     body = bytearray(json.dumps(seed).encode())
     whole = dice.random() < 0.3
-    case = bytearray(request(path, bytes(body), port)) if whole else body
+    case = bytearray(request(path, bytes(body), port, session)) if whole else body
     for _ in range(dice.randint(0, 5)):
         at = dice.randrange(len(case) + 1)
         to = min(len(case), at + dice.randrange(40))
@@ -92,7 +103,7 @@ def mutated(dice, seed, path, port):
             case _: del case[to:]
         if not case:
             break
-    return (bytes(case), False) if whole else (request(path, bytes(case), port), True)
+    return (bytes(case), False) if whole else (request(path, bytes(case), port, session), True)
 
 
 def ask(port, raw, is_complete):
@@ -116,7 +127,8 @@ def ask(port, raw, is_complete):
 def fuzz(name, command, path, seeds, seconds, dice):
     port = free_port()
     command = [word.replace("PORT", str(port)) for word in command]
-    server = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+    log = tempfile.TemporaryFile()
+    server = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=log,
                               env={**os.environ, "MOTET_TOKEN": TOKEN})
     for _ in range(100):
         try:
@@ -124,13 +136,15 @@ def fuzz(name, command, path, seeds, seconds, dice):
             break
         except OSError:
             time.sleep(0.1)
+    session = session_of(path, port) if seeds is MCP else ""
     cases, failed, slowest, kinds = 0, [], 0.0, {}
     until = time.monotonic() + seconds
     while time.monotonic() < until and server.poll() is None:
         seed = seeds[cases % len(seeds)]
-        raw, is_complete = request(path, json.dumps(seed).encode(), port), True
+        raw, is_complete = request(path, json.dumps(seed).encode(), port, session), True
         if cases >= len(seeds):
-            raw, is_complete = mutated(dice, seed, path, port)
+            raw, is_complete = mutated(dice, seed, path, port, session)
+        is_seed = cases < len(seeds)
         cases += 1
         try:
             status, took = ask(port, raw, is_complete)
@@ -139,11 +153,13 @@ def fuzz(name, command, path, seeds, seconds, dice):
         slowest = max(slowest, took)
         code = status.split(b" ")[1].decode(errors="replace") if status.count(b" ") else "none"
         kinds[code] = kinds.get(code, 0) + 1
-        if took > SLOW_S or code == "500" and is_complete:
+        if took > SLOW_S or code == "500" and is_complete or is_seed and code != "200":
             failed.append((took, code, raw))
     ended = server.poll()
     server.terminate()
-    errors = server.communicate()[1].decode(errors="replace")
+    server.wait()
+    log.seek(0)
+    errors = log.read().decode(errors="replace")
     if ended is not None or "panicked" in errors:
         failed.append((0, "ended" if ended is not None else "panicked", errors.encode()))
     print(f"{name}: {cases} requests, {len(failed)} failed, the slowest took {slowest:.2f} s, answers {kinds}")
@@ -153,6 +169,8 @@ def fuzz(name, command, path, seeds, seconds, dice):
 
 
 def main():
+    if len(sys.argv) < 3:
+        sys.exit(__doc__)
     motet, seconds, seed = sys.argv[1], float(sys.argv[2]), int((sys.argv[3:] or ["1"])[0])
     model = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Model)
     threading.Thread(target=model.serve_forever, daemon=True).start()

@@ -205,11 +205,6 @@ pub(crate) struct LastsDef {
 }
 
 impl NeedDef {
-    /// A condition alone.
-    pub(crate) fn of(condition: Condition, span: Span) -> Self {
-        Self { condition, each: None, when: None, span }
-    }
-
     /// Highest index of a parameter that the need mentions.
     pub(crate) fn last_param(&self) -> Option<u16> {
         self.condition.last_param().max(self.when.as_ref().and_then(Condition::last_param))

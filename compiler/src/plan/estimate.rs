@@ -8,7 +8,6 @@ use crate::declare::{MAX_FLUENT_PARAMS, NeedDef, PrimitiveDef};
 use crate::facts::{ANY, FactKey, TruthSet, arg};
 use crate::ir::{Condition, Fact, Kind, MotionKind, Term};
 use crate::plan::achievers::{Achiever, CandidateCall, Subgoal, entity_of};
-use crate::plan::search::Target;
 use crate::prove::Prover;
 use crate::prove::evaluation::CallFrame;
 
@@ -29,6 +28,8 @@ const GUARD: u32 = 300;
 const UNSEEN: u32 = 1_000;
 /// Maximal number of calls that are estimated for one state.
 const EFFORT: u32 = 1_000;
+/// Maximal depth of needs of needs.
+const DEPTH: usize = 14;
 
 /// Cost of a goal: calls to make, and needs left to guards.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -61,9 +62,6 @@ pub(super) struct Ready {
 /// Estimate of one state.
 pub(super) struct Estimate<'p, 'a> {
     prover: &'p Prover<'a>,
-    /// Guards cost nothing.
-    leaves_guards: bool,
-    depth: usize,
     known: FxHashMap<Subgoal, Cost>,
     /// Subgoals on the present chain: a fact that needs itself cannot be achieved.
     asked: Vec<Subgoal>,
@@ -76,12 +74,9 @@ pub(super) struct Estimate<'p, 'a> {
 }
 
 impl<'p, 'a> Estimate<'p, 'a> {
-    /// Estimate with a maximal depth of needs of needs.
-    pub(super) fn new(prover: &'p Prover<'a>, leaves_guards: bool, depth: usize) -> Self {
+    pub(super) fn new(prover: &'p Prover<'a>) -> Self {
         Self {
             prover,
-            leaves_guards,
-            depth,
             known: FxHashMap::default(),
             asked: Vec::new(),
             effort: EFFORT,
@@ -91,20 +86,15 @@ impl<'p, 'a> Estimate<'p, 'a> {
         }
     }
 
-    /// Cost of meeting a target; `None` if no call meets it.
-    pub(super) fn target(&mut self, target: Target<'_>) -> Option<u32> {
-        let costs = target.needs.iter().map(|need| self.need(need, target.frame));
-        costs.reduce(|all, cost| Some(all?.and(cost?))).map_or(Some(0), |all| all.map(Cost::sum))
-    }
-
-    fn is_met(&self, value: TruthSet) -> bool {
-        !value.no.is_some() && (self.leaves_guards || !value.open.is_some())
+    /// Cost of reaching a goal; `None` if no call reaches it.
+    pub(super) fn goal(&mut self, goal: &Condition) -> Option<u32> {
+        self.condition(goal, true, CallFrame::default()).map(Cost::sum)
     }
 
     fn condition(&mut self, condition: &Condition, truth: bool, frame: CallFrame<'_>) -> Option<Cost> {
         let value = self.prover.evaluate(condition, frame);
         let value = if truth { value } else { value.not() };
-        if self.is_met(value) {
+        if !value.no.is_some() && !value.open.is_some() {
             return Some(Cost::default());
         }
         match condition {
@@ -163,7 +153,7 @@ impl<'p, 'a> Estimate<'p, 'a> {
         if let Some(known) = self.known.get(&subgoal) {
             return Some(*known);
         }
-        if self.asked.contains(&subgoal) || self.asked.len() >= self.depth {
+        if self.asked.contains(&subgoal) || self.asked.len() >= DEPTH {
             return None;
         }
         self.asked.push(subgoal);
@@ -226,7 +216,7 @@ impl<'p, 'a> Estimate<'p, 'a> {
 
     fn need(&mut self, need: &NeedDef, frame: CallFrame<'_>) -> Option<Cost> {
         let value = self.prover.need(need, frame).0;
-        if self.is_met(value) {
+        if !value.no.is_some() && !value.open.is_some() {
             return Some(Cost::default());
         }
         match need.each {

@@ -10,7 +10,7 @@
 
 pub(crate) mod achievers;
 mod estimate;
-pub(crate) mod search;
+mod search;
 
 use motet_syntax::ast::{Do, Expr, ExprKind};
 use motet_syntax::{Diagnostic, Span, Syntax};
@@ -18,12 +18,11 @@ use smol_str::SmolStr;
 use thiserror::Error;
 
 use crate::declare::elaborator::Elaborator;
-use crate::declare::{Library, NeedDef, PrimitiveDef};
+use crate::declare::{Library, PrimitiveDef};
 use crate::environment::Environment;
 use crate::facts::FactKey;
 use crate::ir::{Condition, Entity, Kind, MotionKind, Program};
 use crate::plan::achievers::CandidateCall;
-use crate::plan::search::{Bounds, Found, Root, Target};
 use crate::prove::Prover;
 use crate::prove::evaluation::CallFrame;
 use crate::session::Session;
@@ -32,8 +31,6 @@ use crate::session::Session;
 pub const PLAN_BUDGET: usize = 600;
 /// Maximal number of calls of a plan.
 pub const MAX_PLAN: usize = 200;
-/// Maximal depth of needs of needs.
-const MAX_DEPTH: usize = 14;
 
 /// Condition to achieve.
 #[derive(Clone, Debug)]
@@ -114,8 +111,7 @@ impl Session {
         let conditions = conditions.collect::<Result<Vec<_>, _>>()?;
         let program = Program::default();
         let mut prover = Prover::new(&program, library, environment);
-        let root = Root::here(&prover);
-        let mut agenda = Agenda { root, calls: Vec::new(), of: Vec::new(), left: budget };
+        let mut agenda = Agenda { calls: Vec::new(), of: Vec::new(), left: budget };
         let mut kept: Vec<Condition> = Vec::new();
         for (index, (condition, goal)) in conditions.iter().zip(goals).enumerate() {
             for part in parts(condition, goal.persistence) {
@@ -169,7 +165,6 @@ fn parts(condition: &Condition, persistence: Persistence) -> &[Condition] {
 
 /// The calls so far.
 struct Agenda {
-    root: Root,
     calls: Vec<CandidateCall>,
     /// Goal of each call.
     of: Vec<usize>,
@@ -178,29 +173,21 @@ struct Agenda {
 
 impl Agenda {
     fn reach(&mut self, prover: &mut Prover<'_>, goal: &Condition, index: usize) -> Result<(), NoPlan> {
-        let need = NeedDef::of(goal.clone(), Span::default());
-        let frame = CallFrame::default();
-        let target = Target { needs: std::slice::from_ref(&need), frame, leaves_guards: false };
-        let bounds = Bounds { states: self.left, calls: MAX_PLAN, depth: MAX_DEPTH, plans: 1 };
-        let Found { mut plans, expanded_states, is_exhausted, blocker } =
-            search::search(prover, &self.root, &self.calls, target, bounds);
-        self.left -= expanded_states;
-        let shown = || prover.show(goal, true, frame);
-        let found = match plans.pop() {
-            Some(found) => found,
-            None if is_exhausted => return Err(NoPlan::Budget { goal: shown() }),
-            None => return Err(NoPlan::Unreachable { goal: shown(), blocker }),
-        };
+        let found = search::search(prover, &self.calls, goal, &mut self.left)?;
         self.of.resize(self.of.len() + found.len(), index);
         self.calls.extend(found);
-        if self.calls.len() > MAX_PLAN { Err(NoPlan::Budget { goal: shown() }) } else { Ok(()) }
+        if self.calls.len() > MAX_PLAN {
+            Err(NoPlan::Budget { goal: prover.show(goal, true, CallFrame::default()) })
+        } else {
+            Ok(())
+        }
     }
 
     /// Closes containers that the plan opened, unless a goal mentions them or would be lost. A thing in the
     /// hand stays in it: to put it down and to find it again risks more than a container that is open.
     fn tidy(&mut self, prover: &mut Prover<'_>, mut kept: Vec<Condition>, index: usize) {
         let Some(open) = prover.library.lang_items.open else { return };
-        self.root.replay(prover, &self.calls);
+        search::replay(prover, &self.calls);
         let in_hand = held(prover);
         let mut opened = Vec::new();
         prover.state.facts.entries(open, FactKey::ALL, |key, value| {
@@ -238,7 +225,7 @@ impl Agenda {
         first: usize,
     ) -> impl Iterator<Item = Option<SmolStr>> + 's {
         let (before, after) = self.calls.split_at(first.min(self.calls.len()));
-        self.root.replay(prover, before);
+        search::replay(prover, before);
         after.iter().enumerate().map(move |(offset, call)| {
             search::apply(prover, before.len() + offset, call);
             held(prover)
@@ -246,7 +233,7 @@ impl Agenda {
     }
 
     fn write(&self, prover: &mut Prover<'_>) -> Result<Vec<PlannedStep>, NoPlan> {
-        self.root.replay(prover, &[]);
+        search::replay(prover, &[]);
         let mut steps = Vec::with_capacity(self.calls.len());
         for (index, (call, goal)) in self.calls.iter().zip(&self.of).enumerate() {
             let Some(def) = prover.library.primitive(call.primitive) else { continue };

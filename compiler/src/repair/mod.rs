@@ -2,8 +2,9 @@
 //! add.
 //!
 //! A [`RepairFinder`] observes the prover and searches while the facts before the refuted step are at hand.
-//! The search is that of the planner ([`crate::plan::search`]) with a small budget. What it finds is a
-//! candidate: [`crate::fix`] verifies it by checking the edited document again.
+//! The search chains backwards from needs to the calls that achieve them ([`crate::plan::achievers`]). It is
+//! bounded and greedy, after means-ends analysis (Newell and Simon 1963). What it finds is a candidate:
+//! [`crate::fix`] verifies it by checking the edited document again.
 
 mod search;
 mod write;
@@ -17,10 +18,16 @@ use crate::plan::achievers::{CandidateCall, MAX_CANDIDATES, Subgoal};
 use crate::prove::evaluation::CallFrame;
 use crate::prove::{Observer, PolicyEnd, Problem, Prover};
 
+/// Maximal depth of needs of needs.
+const MAX_DEPTH: usize = 3;
+/// Maximal number of calls of one repair.
+const MAX_CALLS: usize = 6;
 /// Maximal number of findings of a policy for which repairs are searched.
 const MAX_FINDINGS: usize = 32;
 /// Maximal distance, in steps, to an earlier step before which a call may be inserted.
 const MAX_EARLIER: usize = 6;
+/// Maximal number of calls that are tried for one step.
+const MAX_TRIES: usize = 400;
 
 /// Repairs of one diagnostic, the best first.
 #[derive(Clone, Debug)]
@@ -88,9 +95,11 @@ impl From<Diagnostic> for Finding {
 /// Repairs that a check searches.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum RepairSearch {
+    /// None: diagnostics keep the fixes that a stage gives them.
     Skip,
     /// The best one for each finding.
     Best,
+    /// All that are known for each finding.
     All,
 }
 
@@ -190,7 +199,7 @@ impl RepairFinder {
             repairs.push(Repair::Drop(id));
         }
         repairs.extend(prover.unwatched(def, frame).map(|fluent| Repair::Watch(id, fluent)));
-        let plans = prover.plans(&def.needs, frame, self.count());
+        let plans = prover.plans(&def.needs, frame);
         repairs.extend(plans.into_iter().map(|calls| Repair::Before(id, prover.by_binding(calls, span))));
         if self.search != RepairSearch::All {
             return self.add(diagnostic, repairs);
@@ -226,8 +235,8 @@ impl RepairFinder {
         if self.is_full() || prover.is_inlined(id) {
             return;
         }
-        let need = NeedDef::of(goal, span);
-        let plans = prover.plans(&[need], CallFrame::default(), self.count());
+        let need = NeedDef { condition: goal, each: None, when: None, span };
+        let plans = prover.plans(&[need], CallFrame::default());
         let repairs = plans.into_iter().map(|calls| match end {
             PolicyEnd::Before(_) => Repair::Before(id, prover.by_binding(calls, span)),
             PolicyEnd::After(_) => {
@@ -257,11 +266,6 @@ impl RepairFinder {
             let again = Repair::Again { found: StepId(found), before: id, used: diagnostic.span };
             self.add(diagnostic, vec![again]);
         }
-    }
-
-    /// Number of plans to search for a finding.
-    fn count(&self) -> usize {
-        if self.search == RepairSearch::All { MAX_CANDIDATES } else { 1 }
     }
 
     fn is_full(&self) -> bool {

@@ -1,28 +1,114 @@
-//! Repairs by calls: plans for unmet needs, and the facts that are missing.
+//! Backward search from unmet needs, on the facts as they would be.
 
+use motet_syntax::Span;
+
+use super::{MAX_CALLS, MAX_DEPTH, MAX_TRIES};
 use crate::declare::NeedDef;
+use crate::facts::Cause;
 use crate::ir::Condition;
-use crate::plan::achievers::{CandidateCall, MAX_CANDIDATES, Subgoal};
-use crate::plan::search::{Bounds, Root, Target, search};
+use crate::plan::achievers::{Achiever, CandidateCall, MAX_CANDIDATES, Subgoal};
 use crate::prove::Prover;
+use crate::prove::effects::FactChange;
 use crate::prove::evaluation::CallFrame;
 
-/// A repair is a short plan.
-const BOUNDS: Bounds = Bounds { states: 20, calls: 6, depth: 4, plans: MAX_CANDIDATES };
-
 impl Prover<'_> {
-    /// Sequences of calls after which no need is refuted, the best first.
-    pub(super) fn plans(
+    /// Sequences of calls after which all needs hold, the shortest first.
+    pub(super) fn plans(&mut self, needs: &[NeedDef], frame: CallFrame<'_>) -> Vec<Vec<CandidateCall>> {
+        let mut plans = Vec::new();
+        let mut tries = MAX_TRIES;
+        for subgoal in self.first_refuted(needs, frame) {
+            for achiever in self.achievers(subgoal) {
+                let mark = self.state.facts.mark();
+                let mut calls = Vec::new();
+                let is_found = self.perform(&achiever, MAX_DEPTH, &mut tries, &mut calls)
+                    && self.satisfy(needs, frame, MAX_DEPTH, &mut tries, &mut calls);
+                self.back_to(mark);
+                if is_found && !plans.contains(&calls) {
+                    plans.push(calls);
+                }
+            }
+        }
+        plans.sort_by_key(Vec::len);
+        plans.truncate(MAX_CANDIDATES);
+        plans
+    }
+
+    /// Extends `calls`, and the facts with them, until no need is refuted.
+    pub(super) fn satisfy(
         &mut self,
         needs: &[NeedDef],
         frame: CallFrame<'_>,
-        count: usize,
-    ) -> Vec<Vec<CandidateCall>> {
-        let root = Root::here(self);
-        let bounds = Bounds { plans: count, ..BOUNDS };
-        let found = search(self, &root, &[], Target { needs, frame, leaves_guards: true }, bounds);
-        root.replay(self, &[]);
-        found.plans
+        depth: usize,
+        tries: &mut usize,
+        calls: &mut Vec<CandidateCall>,
+    ) -> bool {
+        loop {
+            let subgoals = self.first_refuted(needs, frame);
+            if subgoals.is_empty() {
+                // Either all is well, or what is refuted is no fact that a step could change.
+                return needs.iter().all(|need| !self.need(need, frame).0.no.is_some());
+            }
+            if depth == 0 || calls.len() >= MAX_CALLS {
+                return false;
+            }
+            let before = calls.len();
+            let is_found = subgoals.into_iter().any(|subgoal| {
+                self.achievers(subgoal).into_iter().any(|achiever| {
+                    let mark = self.state.facts.mark();
+                    let is_found = self.perform(&achiever, depth - 1, tries, calls);
+                    if !is_found {
+                        self.back_to(mark);
+                        calls.truncate(before);
+                    }
+                    is_found
+                })
+            });
+            if !is_found {
+                return false;
+            }
+        }
+    }
+
+    /// Achieves the needs of a call, and applies it. Returns false if that fails; the caller then restores
+    /// facts and calls.
+    pub(super) fn perform(
+        &mut self,
+        achiever: &Achiever<'_>,
+        depth: usize,
+        tries: &mut usize,
+        calls: &mut Vec<CandidateCall>,
+    ) -> bool {
+        let library = self.library;
+        let Achiever { call, subgoal, when } = achiever;
+        let Some(def) = library.primitive(call.primitive) else { return false };
+        let Some(left) = tries.checked_sub(1) else { return false };
+        *tries = left;
+        if calls.contains(call) {
+            return false;
+        }
+        let frame = CallFrame { args: &call.args, result: call.result, each: None };
+        let is_met = match when {
+            None => self.satisfy(&def.needs, frame, depth, tries, calls),
+            // First what the effect stands under: it says which of several things is meant.
+            Some((when, each)) => {
+                let first =
+                    NeedDef { condition: (*when).clone(), each: None, when: None, span: Span::default() };
+                let needs: Vec<_> = std::iter::once(first).chain(def.needs.iter().cloned()).collect();
+                self.satisfy(&needs, CallFrame { each: *each, ..frame }, depth, tries, calls)
+            }
+        };
+        if !is_met || calls.len() >= MAX_CALLS {
+            return false;
+        }
+        let (mut makes, mut unsettles): (Vec<FactChange>, Vec<FactChange>) = Default::default();
+        self.changes(&def.makes, frame, &mut makes);
+        self.changes(&def.unsettles, frame, &mut unsettles);
+        self.unsettle(&unsettles, Cause::NOTHING);
+        self.make(&makes, Cause::NOTHING);
+        calls.push(call.clone());
+        let (fluent, key, truth) = *subgoal;
+        let holds = if key.is_pattern() { None } else { Some(self.read(fluent, key)) };
+        holds.is_none_or(|value| if truth { value.is_true() } else { value.is_false() })
     }
 
     /// Facts that are each a first step towards the first refuted need.

@@ -10,7 +10,7 @@ import numpy as np
 from .clearance import NEARER, TOUCHES, Clearance
 from .motion import frame_at
 
-# Distance in m of the hand from the end of its way from which on it goes beside the way.
+# The hand goes beside its way within this distance in m of its end.
 NEAR = 0.12
 # Distances in m to either side by which a hand is moved to find how much room it has there.
 SPARES = tuple(0.005 * step for step in range(1, 11))
@@ -75,7 +75,7 @@ def spared(world, beliefs, points, thing):
         return all(gap >= usual.get(pair, np.inf) - NEARER for pair, gap in met(target)[0].items())
 
     def room(way):
-        """Way in m by which the hand may go to a side, as if the thing went to the other."""
+        """Room in m on a side of the hand, found by moving the thing the other way."""
         found = 0.0
         for far in SPARES:
             clearance.start[at : at + 3] = place - far * way

@@ -316,8 +316,9 @@ impl Reader<'_> {
             Primitive::Text => {
                 let length = u32::from_le_bytes(self.aligned(name)?) as usize;
                 let bytes = self.take(length, name)?;
-                let text = String::from_utf8_lossy(bytes.strip_suffix(&[0]).unwrap_or(bytes));
-                Message::Text(text.into_owned())
+                // A text ends at its first zero byte, as for readers in C.
+                let text = bytes.split(|byte| *byte == 0).next().unwrap_or_default();
+                Message::Text(String::from_utf8_lossy(text).into_owned())
             }
         })
     }

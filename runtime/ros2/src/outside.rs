@@ -1,4 +1,4 @@
-//! Readers of what comes from files and from the network, for fuzz targets.
+//! Readers of files and of messages from the network, for fuzz targets.
 
 use crate::bind::Binding;
 use crate::cdr;
