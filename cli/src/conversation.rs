@@ -60,7 +60,7 @@ pub(crate) fn converse(
     if args.model.camera && !ready.driver.capabilities().look {
         return Err(CliError::Message("--camera needs a driver that takes pictures".to_owned()));
     }
-    let mut planner = planner::planner(args, (ready.speed, setup.options), colors, record.clone())?;
+    let mut planner = planner::planner(args, ready.speed, setup.options, colors, record.clone())?;
     catch_interrupts()?;
     let ReadyDriver { mut driver, eyes, saved, clock, speed, settings } = ready;
     let mut talk = Conversation::new(&setup).with_runs(&run, settings, args.on_instruction.into());

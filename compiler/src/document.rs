@@ -147,7 +147,7 @@ impl Session {
                     break;
                 }
                 let (geometry, repairs) = (self.geometry.as_deref(), RepairSearch::Best);
-                let mut analysis = self.analyse(policy, parsed, library, environment, (geometry, repairs));
+                let mut analysis = self.analyse(policy, parsed, library, environment, geometry, repairs);
                 each(&analysis, library, environment);
                 findings.append(&mut analysis.findings);
                 if policy.params.is_empty() {
@@ -195,9 +195,10 @@ impl Session {
     fn goals(&self, parsed: &Parsed) -> Vec<GoalVerdict> {
         let mut goals = Vec::new();
         self.within(parsed, &mut Vec::new(), |library, environment, _| {
-            let aims = (None, RepairSearch::Skip);
-            let analyses =
-                parsed.file.policies().map(|policy| self.analyse(policy, parsed, library, environment, aims));
+            let analyses = parsed
+                .file
+                .policies()
+                .map(|policy| self.analyse(policy, parsed, library, environment, None, RepairSearch::Skip));
             goals.extend(analyses.filter_map(|analysis| analysis.proof.goal));
         });
         goals
@@ -234,8 +235,8 @@ impl Session {
                 if is_too_many(&mut errors, &findings) {
                     break;
                 }
-                let aims = (geometry, repairs);
-                findings.extend(self.analyse(policy, parsed, library, environment, aims).findings);
+                let analysis = self.analyse(policy, parsed, library, environment, geometry, repairs);
+                findings.extend(analysis.findings);
             }
         });
         findings.extend(diagnostics.into_iter().map(Finding::from));
@@ -275,7 +276,7 @@ impl Session {
             };
             let is_refused = diagnostics.iter().any(is_error);
             let (geometry, repairs) = (self.geometry.as_deref(), RepairSearch::Best);
-            let mut analysis = self.analyse(policy, parsed, library, environment, (geometry, repairs));
+            let mut analysis = self.analyse(policy, parsed, library, environment, geometry, repairs);
             findings.append(&mut analysis.findings);
             (graph, skipped_motions) = analysis.lower(is_refused, library, environment);
         });
@@ -314,7 +315,8 @@ impl Session {
         parsed: &Parsed,
         library: &Library,
         environment: &Environment,
-        (geometry, repairs): (Option<&Geometry>, RepairSearch),
+        geometry: Option<&Geometry>,
+        repairs: RepairSearch,
     ) -> Analysis {
         let (program, mut diagnostics) = crate::resolve::resolve(policy, parsed.syntax, library, environment);
         diagnostics.extend(crate::limits::check_robot_name(policy, library));

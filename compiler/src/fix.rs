@@ -98,20 +98,20 @@ pub fn fix_parsed(
     let mut search = Search { session, source, file, least: limits.least, tries };
     let mut at = Candidate::new(session, source.text.to_string(), parsed);
     let (mut applied, mut left) = (Vec::new(), limits.most);
-    loop {
+    let findings = loop {
         // The shapes of the document, then the notations in what they are read as.
         for _ in 0..2 {
             let Some((next, done)) = at.in_plain_form(session, source, file) else { break };
             applied.extend(done);
             at = next;
         }
-        let Some(depth) = left.checked_sub(1).map(|left| MAX_DEPTH.min(left)) else { break };
-        let Some((next, done)) = search.better(&at, &at, depth) else { break };
+        let findings = search.with_repairs(&at);
+        let Some(depth) = left.checked_sub(1).map(|left| MAX_DEPTH.min(left)) else { break findings };
+        let Some((next, done)) = search.better(&at, (&at, &findings), depth) else { break findings };
         left = left.saturating_sub(done.len());
         applied.extend(done);
         at = next;
-    }
-    let findings = session.findings(&at.parsed, None, RepairSearch::Best);
+    };
     let diagnostics = findings.into_iter().map(|found| found.diagnostic).collect();
     FixedDocument { text: at.text, parsed: at.parsed, applied, diagnostics }
 }
@@ -230,21 +230,26 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
+    /// Findings of a version with all repairs.
+    fn with_repairs(&self, at: &Candidate) -> Vec<Finding> {
+        if at.findings.is_empty() {
+            return Vec::new();
+        }
+        self.session.findings(&at.parsed, None, RepairSearch::All)
+    }
+
     /// Finds the first version that is better than `base`, starting from `at`, with the fixes that lead to
     /// it. Tries errors before warnings.
     fn better(
         &mut self,
         base: &Candidate,
-        at: &Candidate,
+        (at, findings): (&Candidate, &[Finding]),
         depth: usize,
     ) -> Option<(Candidate, Vec<AppliedFix>)> {
-        if self.tries == 0 {
-            return None;
-        }
-        let mut order = self.session.findings(&at.parsed, None, RepairSearch::All);
+        let mut order: Vec<_> = findings.iter().collect();
         order.sort_by_key(|found| std::cmp::Reverse(found.diagnostic.severity));
         let mut promising = Vec::new();
-        for found in &order {
+        for found in order {
             let said = &found.diagnostic;
             for (fix, applicability) in found.fixes().filter(|(_, found)| *found >= self.least) {
                 self.tries = self.tries.checked_sub(1)?;
@@ -270,7 +275,11 @@ impl Search<'_> {
             return None;
         }
         promising.into_iter().find_map(|(next, done)| {
-            let (last, more) = self.better(base, &next, depth - 1)?;
+            if self.tries == 0 {
+                return None;
+            }
+            let findings = self.with_repairs(&next);
+            let (last, more) = self.better(base, (&next, &findings), depth - 1)?;
             Some((last, std::iter::once(done).chain(more).collect()))
         })
     }

@@ -141,11 +141,12 @@ def fuzz(name, command, path, seeds, seconds, dice):
     until = time.monotonic() + seconds
     while time.monotonic() < until and server.poll() is None:
         seed = seeds[cases % len(seeds)]
-        raw, is_complete = request(path, json.dumps(seed).encode(), port, session), True
-        if cases >= len(seeds):
-            raw, is_complete = mutated(dice, seed, path, port, session)
         is_seed = cases < len(seeds)
         cases += 1
+        if is_seed:
+            raw, is_complete = request(path, json.dumps(seed).encode(), port, session), True
+        else:
+            raw, is_complete = mutated(dice, seed, path, port, session)
         try:
             status, took = ask(port, raw, is_complete)
         except OSError as error:

@@ -22,7 +22,8 @@ use crate::output::{Colors, note, styled_note};
 /// Planner of the flags.
 pub(super) fn planner(
     args: &ConversationArgs,
-    (speed, options): (Speed, CheckOptions),
+    speed: Speed,
+    options: CheckOptions,
     colors: Colors,
     record: Option<ConversationRecord>,
 ) -> Result<Box<dyn Planner>, CliError> {

@@ -13,7 +13,7 @@ from .motion import set_targets
 
 # Distances in m that base and arm keep where a witness says nothing.
 KEEPS = {"base": 0.04, "arm": 0.01}
-# Those on a way on which they touch nothing.
+# Distances in m that they keep on a way on which it is enough to touch nothing.
 TOUCHES = {"base": 0.0, "arm": 0.0}
 # Distance in m by which what is too near anyway may come nearer.
 NEARER = 0.001

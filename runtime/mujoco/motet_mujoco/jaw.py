@@ -95,7 +95,7 @@ def spared(world, beliefs, points, thing):
         return points, []
     first = approach(world, points)
     legs = zip(moved[first - 1 :], moved[first:])
-    ways = [one + (other - one) * share for one, other in legs for share in np.linspace(0.2, 1.0, 5)]
+    ways = [start + (end - start) * share for start, end in legs for share in np.linspace(0.2, 1.0, 5)]
     if not all(is_free(target) and not met(target)[1] for target in ways):
         return points, []
     return moved, [points[-1], beyond]

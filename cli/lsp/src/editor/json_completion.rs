@@ -1,5 +1,7 @@
 //! Completion in the JSON syntax: keys and values by the keys around them.
 
+use std::sync::LazyLock;
+
 use motet_compiler::Session;
 use motet_syntax::Parsed;
 use motet_syntax::json::policy_schema;
@@ -11,6 +13,13 @@ use smol_str::SmolStr;
 use super::completion::{Completer, Completion, Suggestion, SuggestionKind};
 use super::context::ArgumentPlace;
 use super::point::{PointState, step_at};
+
+/// Keys of a policy.
+static POLICY_KEYS: LazyLock<Vec<String>> = LazyLock::new(|| {
+    let schema = policy_schema();
+    let properties = schema.get("properties").and_then(Value::as_object);
+    properties.into_iter().flatten().map(|(key, _)| key.clone()).collect()
+});
 
 /// Place in a JSON document.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
@@ -97,9 +106,7 @@ fn keys(completer: &Completer<'_>, place: &JsonPlace) -> Completion {
             keys.extend(["as", "within", "retry", "manner"].map(word));
         }
         None if place.around.is_none() => {
-            let schema = policy_schema();
-            let properties = schema.get("properties").and_then(Value::as_object);
-            keys.extend(properties.into_iter().flatten().map(|(key, _)| word(key)));
+            keys.extend(POLICY_KEYS.iter().map(|key| word(key)));
         }
         None => keys.extend(STEP_KEYS.into_iter().chain(["do", DEADLINE, "finally"]).map(word)),
     }
