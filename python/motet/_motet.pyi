@@ -32,7 +32,12 @@ class Decoder:
         """
         Returns `true` if the text so far is a whole policy.
         """
-    def mask(self, /) -> bytes:
+    @property
+    def is_wide(self, /) -> bool:
+        """
+        Returns `true` if the last mask may have tokens that cannot follow.
+        """
+    def mask(self, /, effort: SupportsIndex | None = None) -> bytes:
         """
         The mask, one bit per token, the lowest first, in 32-bit words of the machine's order.
         """

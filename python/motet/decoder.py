@@ -50,16 +50,25 @@ class Decoder:
         self._decoder = self.environment._decoder(self.vocabulary, budget)
         self._tokens: list[int] = []
 
-    def mask(self) -> memoryview:
+    def mask(self, effort: int | None = None) -> memoryview:
         """The mask of the tokens that may follow, one bit per token, the lowest first: a `memoryview` of 32-bit words, which
-        `numpy.asarray` takes as it is. Empty after the end."""
-        return memoryview(self._decoder.mask()).cast("I")
+        `numpy.asarray` takes as it is. Empty after the end.
 
-    def allowed(self) -> numpy.typing.NDArray[numpy.bool_]:
-        """The mask as an array of numpy, one `bool` per token: shape (number of tokens,)."""
+        `effort` limits what the checker may look at (0 or more; 20,000 take about a millisecond). Where that is not enough,
+        `is_wide` is true, and the mask also has tokens that only names and types allow. Where `accept` refuses the chosen
+        one, take the mask again, which lacks it, and choose another."""
+        return memoryview(self._decoder.mask(effort)).cast("I")
+
+    @property
+    def is_wide(self) -> bool:
+        """True if the last mask may have tokens that cannot follow."""
+        return self._decoder.is_wide
+
+    def allowed(self, effort: int | None = None) -> numpy.typing.NDArray[numpy.bool_]:
+        """The mask as an array of numpy, one `bool` per token: shape (number of tokens,). `effort` is that of `mask`."""
         import numpy
 
-        words = numpy.asarray(self.mask()).astype("<u4", copy=False)
+        words = numpy.asarray(self.mask(effort)).astype("<u4", copy=False)
         bits = numpy.unpackbits(words.view("u1"), bitorder="little")
         return bits[: len(self.vocabulary)].astype(bool)
 

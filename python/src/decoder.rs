@@ -140,9 +140,16 @@ pub(crate) struct Decoder {
 #[pymethods]
 impl Decoder {
     /// The mask, one bit per token, the lowest first, in 32-bit words of the machine's order.
-    fn mask<'py>(&mut self, py: Python<'py>) -> Bound<'py, PyBytes> {
+    #[pyo3(signature = (effort = None))]
+    fn mask<'py>(&mut self, py: Python<'py>, effort: Option<u64>) -> Bound<'py, PyBytes> {
         let words = self.words;
-        let mask = py.detach(|| self.decoder.mask().get(..words).unwrap_or_default().to_vec());
+        let mask = py.detach(|| {
+            let mask = match effort {
+                Some(effort) => self.decoder.mask_within(effort),
+                None => self.decoder.mask(),
+            };
+            mask.get(..words).unwrap_or_default().to_vec()
+        });
         let bytes: Vec<u8> = mask.iter().flat_map(|word| word.to_ne_bytes()).collect();
         PyBytes::new(py, &bytes)
     }
@@ -176,6 +183,12 @@ impl Decoder {
     #[getter]
     fn text(&mut self) -> String {
         String::from_utf8_lossy(self.decoder.acceptor().bytes()).into_owned()
+    }
+
+    /// Returns `true` if the last mask may have tokens that cannot follow.
+    #[getter]
+    fn is_wide(&self) -> bool {
+        self.decoder.is_wide()
     }
 
     /// Returns `true` if the text so far is a whole policy.

@@ -37,6 +37,23 @@ def test_random_policy_checks(environment, tokenizer, scale):
         assert len(policy) <= 500
 
 
+@pytest.mark.parametrize("effort", [0, 2000])
+def test_a_policy_under_wide_masks_checks(environment, tokenizer, effort):
+    refused = 0
+    for seed in range(3):
+        random = numpy.random.default_rng(seed)
+        decoder = motet.Decoder(environment=environment, tokenizer=tokenizer, budget=500)
+        while not decoder.is_over:
+            token = int(random.choice(numpy.flatnonzero(decoder.allowed(effort))))
+            is_wide = decoder.is_wide
+            if not decoder.accept(token):
+                assert is_wide and not decoder.allowed(effort)[token]
+                refused += 1
+        wrong = [said for said in environment.check(decoder.text) if said["severity"] == "error"]
+        assert not wrong, (seed, decoder.text, wrong)
+    assert refused > 0 or effort > 0
+
+
 def test_a_mask_is_taken_by_numpy(environment, tokenizer):
     decoder = motet.Decoder(environment=environment, tokenizer=tokenizer)
     mask = decoder.mask()

@@ -9,8 +9,8 @@ const MAX_FACTS: u64 = 40_000_000;
 const MAX_FACTS_OF_BYTE: u64 = 3;
 /// Weight of the visit of a step.
 pub(crate) const VISIT: usize = 40;
-/// Weight of the change of a fact, which is remembered.
-pub(crate) const WRITE: usize = 5;
+/// Weight of the change of a fact: some 100 bytes are remembered of each, so all take at most 400 MB.
+pub(crate) const WRITE: usize = 10;
 
 thread_local! {
     /// Bound of the document that this thread checks.
@@ -19,7 +19,12 @@ thread_local! {
 
 /// Checks a document of a length in bytes within the bound.
 pub(crate) fn bounded<T>(bytes: usize, check: impl FnOnce() -> T) -> T {
-    EFFORT.with(|effort| effort.bounded(MAX_FACTS + MAX_FACTS_OF_BYTE * bytes as u64, check))
+    within(MAX_FACTS + MAX_FACTS_OF_BYTE * bytes as u64, check)
+}
+
+/// Does work within a bound; inside of other work within that of the other.
+pub(crate) fn within<T>(facts: u64, work: impl FnOnce() -> T) -> T {
+    EFFORT.with(|effort| effort.bounded(facts, work))
 }
 
 /// Returns whether the bound is used up.

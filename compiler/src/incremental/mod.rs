@@ -21,6 +21,7 @@ use smol_str::SmolStr;
 pub use self::point::{FactCause, KnownFact, KnownTruth};
 pub use self::template::PolicyTemplate;
 use crate::declare::name::{Scope, ScopeMark};
+use crate::facts::effort;
 use crate::ir::{Condition, Entity, EnumId, Fact, Fluent, Program, StepId, StepKind, Term};
 use crate::prove::suspended::{Checkpoint, ProofTarget, StepOutcome, SuspendedProof};
 use crate::prove::{AbstractState, Prover};
@@ -31,6 +32,19 @@ pub const PROGRAM_POINT: Span = Span { file: FileId(u16::MAX), start: u32::MAX -
 
 /// Span of a sequence that stands for any one of its steps: see [`IncrementalChecker::permits_any`].
 pub const CHOICE: Span = Span { file: FileId(u16::MAX), start: u32::MAX - 2, end: u32::MAX };
+
+/// Asks questions that may take a limited effort together: `effort` is a number of facts that proofs look at,
+/// where the visit of a step counts as 40. Once [`is_used_up`], all answers are "no", and nobody may rely on
+/// them. The same questions take the same effort on every machine.
+pub fn within<T>(effort: u64, ask: impl FnOnce() -> T) -> T {
+    effort::within(effort, ask)
+}
+
+/// Returns whether the effort of the questions [`within`] a limit is used up.
+#[must_use]
+pub fn is_used_up() -> bool {
+    effort::is_used_up()
+}
 
 /// Argument of a call that is being written.
 #[derive(Clone, PartialEq, Debug)]
@@ -366,6 +380,7 @@ impl IncrementalChecker {
         let (library, environment) = session.parts();
         let Self { proof, program, inside, .. } = self;
         let given = (&*program, library, environment);
+        effort::spend(effort::VISIT);
         match inside {
             None if !proof.live => true,
             None => proof.here(given, ask),

@@ -26,6 +26,8 @@ use motet_syntax::{FileId, Source, Sources, Syntax};
 const TOKENS: u32 = 199_998;
 /// `<|endoftext|>`
 const END: u32 = 199_999;
+/// The limit of a mask: facts that proofs look at.
+const EFFORT: u64 = 20_000;
 /// The number of policies written at random for each robot and scene: 21 in all.
 const WRITTEN: usize = 7;
 
@@ -48,17 +50,21 @@ fn main() {
             taken.sort_unstable();
             println!("{robot} in {scene}: prepared in {:?} at the median of 21", taken[10]);
             let prepared = AcceptorFactory::new(&session, subset);
+            // With a memo of its own.
+            let limited = AcceptorFactory::new(&session, subset);
             let (peer, taken) = time(|| Peer::new(&environment, &session, subset));
             println!("{robot} in {scene}: llguidance prepared in {taken:?}");
             for policy in canonical_examples(&session, subset) {
-                follow((&prepared, &peer), &vocabulary, &encoding.encode_ordinary(&policy), &mut examples);
+                let tokens = encoding.encode_ordinary(&policy);
+                follow((&prepared, &limited, &peer), &vocabulary, &tokens, &mut examples);
                 forced += forced_bytes(&prepared, &policy);
                 all += policy.len();
             }
             for policy in common::walks::written(&session, subset, WRITTEN, |policy| {
                 (200..=600).contains(&encoding.encode_ordinary(policy).len())
             }) {
-                follow((&prepared, &peer), &vocabulary, &encoding.encode_ordinary(&policy), &mut written);
+                let tokens = encoding.encode_ordinary(&policy);
+                follow((&prepared, &limited, &peer), &vocabulary, &tokens, &mut written);
             }
         }
         examples.print("examples");
@@ -93,13 +99,21 @@ struct Times {
     slow: Vec<(Duration, String)>,
     /// Policies that llguidance gave up.
     left: usize,
+    /// Those of masks with a limit, of the tokens behind them, and of both.
+    limited: [Vec<Duration>; 3],
+    /// Masks with a limit that have a token which cannot follow, those that may have one, and the tokens.
+    wide: [usize; 3],
 }
 
 impl Times {
     fn print(&mut self, what: &str) {
+        let [limited, token, limited_both] = &mut self.limited;
         let all = [
             ("mask", &mut self.masks),
             ("mask and token", &mut self.both),
+            ("mask with a limit", limited),
+            ("token behind it", token),
+            ("both", limited_both),
             ("mask of llguidance", &mut self.peer),
         ];
         for (name, times) in all {
@@ -117,6 +131,8 @@ impl Times {
             "{what}: {} masks have a token that llguidance refuses; it gave {} up",
             self.wider, self.left
         );
+        let [wide, maybe, more] = self.wide;
+        println!("{what}: {maybe} masks with a limit may be wide, {wide} are, by {more} tokens in all");
         self.slow.sort_by_key(|(taken, _)| std::cmp::Reverse(*taken));
         for (taken, place) in self.slow.iter().take(25) {
             println!("    {taken:?} after …{place}");
@@ -125,12 +141,13 @@ impl Times {
 }
 
 fn follow(
-    (prepared, peer): (&AcceptorFactory, &Peer),
+    (prepared, limited, peer): (&AcceptorFactory, &AcceptorFactory, &Peer),
     vocabulary: &Vocabulary,
     tokens: &[u32],
     times: &mut Times,
 ) {
     let mut decoder = prepared.decoder(vocabulary, 20_000).unwrap();
+    let mut limited = limited.decoder(vocabulary, 20_000).unwrap();
     let mut matcher = Some(peer.start());
     for token in tokens {
         let (is_set, taken) = time(|| decoder.mask()[*token as usize / 32] >> (token % 32) & 1 == 1);
@@ -141,6 +158,20 @@ fn follow(
             times.slow.push((taken, String::from_utf8_lossy(&bytes[from..]).into_owned()));
         }
         times.masks.push(taken);
+        let (mask, of_limited) = time(|| limited.mask_within(EFFORT).to_vec());
+        let more = mask.iter().zip(decoder.mask()).map(|(wide, exact)| {
+            assert_eq!(!wide & exact, 0, "a mask with a limit lacks a token");
+            (wide & !exact).count_ones() as usize
+        });
+        let more: usize = more.sum();
+        times.wide[0] += usize::from(more > 0);
+        times.wide[1] += usize::from(limited.is_wide());
+        times.wide[2] += more;
+        let (accepted, of_token) = time(|| limited.accept(*token));
+        assert!(accepted);
+        for (times, taken) in times.limited.iter_mut().zip([of_limited, of_token, of_limited + of_token]) {
+            times.push(taken);
+        }
         // Some policies are more than it follows: what it would take behind that is not counted.
         if let Some(peer) = matcher.as_mut() {
             let (theirs, of_peer) = time(|| peer.compute_mask());

@@ -100,6 +100,41 @@ pub unsafe extern "C" fn motet_decoder_mask(
     words: *mut u32,
     count: usize,
 ) -> MotetStatus {
+    // SAFETY: as the function's.
+    unsafe { write_mask(decoder, words, count, Decoder::mask) }
+}
+
+/// Writes the mask as `motet_decoder_mask` does, with a limit of its time: `effort` is what the checker may
+/// look at, and 20,000 take about a millisecond. `Refused` if that was not enough. Then the mask has all
+/// tokens that may follow, and others that only names and types allow: where `motet_decoder_accept` refuses
+/// the chosen token, ask for the mask again, which lacks that token, and choose another one.
+///
+/// # Safety
+///
+/// `decoder` is null or live, and nobody else uses it meanwhile; `words` is null or has room for `count`
+/// words.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn motet_decoder_mask_within(
+    decoder: *mut MotetDecoder,
+    effort: u64,
+    words: *mut u32,
+    count: usize,
+) -> MotetStatus {
+    // SAFETY: as the function's.
+    unsafe { write_mask(decoder, words, count, |decoder| decoder.mask_within(effort)) }
+}
+
+/// Writes a mask that a decoder computes.
+///
+/// # Safety
+///
+/// As [`motet_decoder_mask`].
+unsafe fn write_mask(
+    decoder: *mut MotetDecoder,
+    words: *mut u32,
+    count: usize,
+    mask: impl FnOnce(&mut Decoder) -> &[u32],
+) -> MotetStatus {
     guarded(MotetStatus::Error, || {
         // SAFETY: as the function's.
         let decoder = unsafe { exclusive(decoder, "decoder")? };
@@ -107,13 +142,13 @@ pub unsafe extern "C" fn motet_decoder_mask(
         let words = unsafe { slice_mut(words, count, "mask")? };
         let wanted = decoder.words;
         decoder.with(|decoder| {
-            let mask = decoder.mask().get(..wanted).unwrap_or_default();
+            let mask = mask(decoder).get(..wanted).unwrap_or_default();
             let Some((begin, rest)) = words.split_at_mut_checked(mask.len()) else {
                 return Err(format!("the mask has room for {count} words and needs {wanted}"));
             };
             begin.copy_from_slice(mask);
             rest.fill(0);
-            Ok(MotetStatus::Ok)
+            Ok(yes(!decoder.is_wide()))
         })
     })
 }

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use motet_compiler::incremental;
 use motet_syntax::Syntax;
 use toktrie::{Recognizer, SimpleVob};
 
@@ -40,6 +41,10 @@ pub struct Decoder {
     before: Vec<usize>,
     is_over: bool,
     set: Mask,
+    /// The last mask may have tokens that cannot follow.
+    is_wide: bool,
+    /// Tokens that were refused since the last one was taken.
+    refused: Vec<u32>,
 }
 
 #[derive(Clone)]
@@ -56,8 +61,15 @@ impl AcceptorFactory {
     #[must_use]
     pub fn decoder(&self, vocabulary: &Vocabulary, budget: usize) -> Option<Decoder> {
         let set = Mask(vocabulary.tokens().trie.alloc_token_set());
-        let (vocabulary, before) = (vocabulary.clone(), Vec::new());
-        Some(Decoder { vocabulary, acceptor: self.acceptor(budget)?, before, is_over: false, set })
+        Some(Decoder {
+            vocabulary: vocabulary.clone(),
+            acceptor: self.acceptor(budget)?,
+            before: Vec::new(),
+            is_over: false,
+            set,
+            is_wide: false,
+            refused: Vec::new(),
+        })
     }
 }
 
@@ -65,15 +77,48 @@ impl Decoder {
     /// Computes the mask of tokens that may come next: token `t` is bit `t % 32` of word `t / 32`. Empty
     /// after the end.
     pub fn mask(&mut self) -> &[u32] {
-        let Self { vocabulary, acceptor, set, is_over, .. } = self;
+        self.is_wide = false;
+        let mark = self.acceptor.machine.mark();
+        self.fill();
+        self.acceptor.machine.restore(mark);
+        self.set.0.as_slice()
+    }
+
+    /// Computes the mask as [`mask`](Self::mask) does, with a limit of its time: `effort` is what the checker
+    /// may look at, as in [`motet_compiler::incremental::within`]; 20,000 take about a millisecond. Where that
+    /// is not enough, the mask [`is_wide`](Self::is_wide). It has all tokens that may follow, and others that
+    /// only names and types allow: [`accept`](Self::accept) judges the one that is chosen. After a refusal the
+    /// host takes the mask again, which lacks the refused tokens, and chooses another one.
+    pub fn mask_within(&mut self, effort: u64) -> &[u32] {
+        let machine = &self.acceptor.machine;
+        let (mark, before) = (machine.mark(), machine.findings());
+        self.is_wide = incremental::within(effort, || {
+            self.fill();
+            incremental::is_used_up()
+        });
+        if self.is_wide {
+            self.acceptor.machine.forget_findings(mark, before);
+        } else {
+            self.acceptor.machine.restore(mark);
+        }
+        self.set.0.as_slice()
+    }
+
+    /// Returns whether the last mask may have tokens that cannot follow.
+    #[must_use]
+    pub fn is_wide(&self) -> bool {
+        self.is_wide
+    }
+
+    fn fill(&mut self) {
+        let Self { vocabulary, acceptor, set, is_over, refused, .. } = self;
         let set = &mut set.0;
         set.set_all(false);
         if *is_over {
-            return set.as_slice();
+            return;
         }
         let tokens = vocabulary.tokens();
         let machine = &mut acceptor.machine;
-        let mark = machine.mark();
         match machine.free_text(tokens.longest) {
             Some(Free::Text { pos }) => machine.mask_text(tokens, pos, set),
             Some(Free::Name { pos, most }) => {
@@ -90,7 +135,6 @@ impl Decoder {
             }
             None => machine.mask_few(tokens, set),
         }
-        machine.restore(mark);
         for (twin, first) in &tokens.twins {
             if set.is_allowed(*first) {
                 set.allow_token(*twin);
@@ -99,7 +143,7 @@ impl Decoder {
         if acceptor.is_accepting() {
             set.allow_token(tokens.end);
         }
-        set.as_slice()
+        refused.iter().for_each(|token| set.disallow_token(*token));
     }
 
     /// Takes a token if it may come next; otherwise nothing changes.
@@ -112,7 +156,7 @@ impl Decoder {
         if token == tokens.end {
             self.is_over = self.acceptor.is_accepting();
             if self.is_over {
-                self.before.push(before);
+                self.take(before);
             }
             return self.is_over;
         }
@@ -120,14 +164,25 @@ impl Decoder {
         let taken = self.acceptor.accept(bytes);
         if bytes.is_empty() || taken < bytes.len() {
             self.acceptor.forget(taken);
+            if self.is_wide {
+                self.refused.push(token);
+            }
             return false;
         }
-        self.before.push(before);
+        self.take(before);
         true
+    }
+
+    /// Records that a token was taken behind this number of bytes.
+    fn take(&mut self, before: usize) {
+        self.before.push(before);
+        self.refused.clear();
+        self.is_wide = false;
     }
 
     /// Takes back the last tokens, or all if there are fewer.
     pub fn rollback(&mut self, tokens: usize) {
+        self.refused.clear();
         for _ in 0..tokens {
             let Some(before) = self.before.pop() else { return };
             let bytes = self.acceptor.bytes().len().saturating_sub(before);

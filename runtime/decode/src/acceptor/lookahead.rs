@@ -104,6 +104,18 @@ impl Machine {
         }
     }
 
+    /// What is known of the last state and of the lookahead states.
+    pub(super) fn findings(&self) -> (State, Vec<State>) {
+        (self.state(), self.arenas.lookaheads.clone())
+    }
+
+    /// Truncates the arenas to a mark, and forgets what was found since then.
+    pub(super) fn forget_findings(&mut self, mark: ArenaMark, (last, lookaheads): (State, Vec<State>)) {
+        self.arenas.truncate(mark);
+        self.arenas.lookaheads = lookaheads;
+        self.states.last_mut().into_iter().for_each(|state| *state = last);
+    }
+
     /// Truncates the arenas to a mark, keeping the findings about the last state and its lookahead states.
     pub(crate) fn restore(&mut self, mark: ArenaMark) {
         let context = Arc::clone(&self.context);

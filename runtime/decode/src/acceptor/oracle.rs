@@ -5,7 +5,7 @@
 //! next step will stand and judges calls; the other verifies whole steps, closed for the time being.
 
 use motet_compiler::Session;
-use motet_compiler::incremental::{ArgumentValue, IncrementalChecker, LoopTest};
+use motet_compiler::incremental::{ArgumentValue, IncrementalChecker, LoopTest, is_used_up};
 use motet_compiler::signature::Type;
 use motet_syntax::ast::POSE;
 
@@ -82,11 +82,15 @@ impl Machine {
         self.is_independent(event, more) || self.verify(event, more)
     }
 
-    /// The proof at the place of the next step, behind `event`.
+    /// The proof at the place of the next step, behind `event`; `None` if it is wrong up to there, or if no
+    /// effort is left for it.
     fn place(&mut self, event: Id) -> Option<(&mut IncrementalChecker, &Session)> {
         let (before, mut events) = self.arenas.present(event, &[]);
         let transcript = Transcript { context: &self.context, arenas: &self.arenas, bytes: &self.bytes };
         let hash = transcript.arenas.hash(event);
+        if is_used_up() {
+            return None;
+        }
         if self.oracle.stands != Some(hash) {
             self.oracle.stands = None;
             let draft = self.oracle.place.follow(&transcript, before)?;
@@ -97,6 +101,9 @@ impl Machine {
                 transcript.step(&events)
             };
             draft.go(&self.context.session, step.as_ref());
+            if is_used_up() {
+                return None;
+            }
             self.oracle.stands = Some(hash);
         }
         Some((self.oracle.place.draft.as_mut()?, &self.context.session))
@@ -250,7 +257,7 @@ impl Machine {
         } else {
             ask(self)
         };
-        permits.then_some(args)
+        (permits || is_used_up()).then_some(args)
     }
 
     /// The first completion of a call that nothing refutes at its place: the best candidate for a proof
@@ -362,7 +369,9 @@ impl Machine {
             Event::Bound(id) | Event::First(id) => {
                 let name = *self.arenas.name(id)?;
                 let name = smol_str::SmolStr::new(text(name.start, name.len)?);
-                let (draft, _) = self.place(site.event)?;
+                let Some((draft, _)) = self.place(site.event) else {
+                    return is_used_up().then(ArgumentValue::unknown);
+                };
                 let value = draft.binding(&name)?;
                 if matches!(event, Event::First(_)) { value.first() } else { value }
             }

@@ -6,6 +6,7 @@
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
+use motet_compiler::incremental::is_used_up;
 use motet_syntax::ast::Step;
 use rustc_hash::FxHasher;
 
@@ -67,12 +68,19 @@ impl Machine {
         self.context.memo.get(key)
     }
 
-    /// The answer to a question; asks the checker only if it is not known.
+    /// The answer to a question; asks the checker only if it is not known, and if some effort is left. Without
+    /// an answer it is yes.
     pub(crate) fn answer(&mut self, key: u64, ask: impl FnOnce(&mut Self) -> bool) -> bool {
         if let Some(answer) = self.context.memo.get(key) {
             return answer;
         }
+        if is_used_up() {
+            return true;
+        }
         let answer = ask(self);
+        if is_used_up() {
+            return true;
+        }
         self.context.memo.put(key, answer);
         answer
     }
@@ -93,7 +101,6 @@ impl Machine {
         if self.known(key).is_some() {
             return;
         }
-        self.context.memo.put(key, true);
         let context = Arc::clone(&self.context);
         let mut calls = Vec::new();
         for (callable, _) in
@@ -106,6 +113,9 @@ impl Machine {
             calls.push(PAUSE.to_vec());
         }
         self.probe((site.event, site.event), &calls);
+        if !is_used_up() {
+            self.context.memo.put(key, true);
+        }
     }
 
     /// Probes the values of an argument of a call.
@@ -163,6 +173,9 @@ impl Machine {
         }
         let mut left = vec![open.as_slice()];
         while let Some(choices) = left.pop() {
+            if is_used_up() {
+                return;
+            }
             if choices.len() <= FEW {
                 continue;
             }

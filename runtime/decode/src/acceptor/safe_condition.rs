@@ -1,7 +1,7 @@
 //! Conditions that must refute nothing: the test of a loop whose back edge is refuted without one, and the
 //! condition of a `wait` beside concurrent steps.
 
-use motet_compiler::incremental::LoopTest;
+use motet_compiler::incremental::{LoopTest, is_used_up};
 
 use super::context::Question;
 use super::event_log::{Event, Flags, Id, State, meaning, mix};
@@ -101,7 +101,7 @@ impl Machine {
             LoopTest::Idle if !self.may_iterate(body) => false,
             LoopTest::Holds | LoopTest::Idle | LoopTest::Open => {
                 let round = self.permits_round(body, Some((fluent, negated, &args)));
-                round.is_some_and(|facts| self.is_right_beside((body, facts), event, more))
+                is_used_up() || round.is_some_and(|facts| self.is_right_beside((body, facts), event, more))
             }
         }
     }

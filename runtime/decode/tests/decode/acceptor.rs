@@ -345,6 +345,66 @@ fn compare_masks(syntax: Syntax) {
 }
 
 #[test]
+fn decoder_mask_within_an_effort_lacks_no_token_and_ends_nowhere() {
+    let (mut wide, mut refused) = (0, 0);
+    for (syntax, effort) in [Syntax::Json, Syntax::Text].into_iter().flat_map(|syntax| {
+        // None at all, some, and nearly always enough.
+        [0, 400, 20_000].map(|effort| (syntax, effort))
+    }) {
+        let session = session("hsr", "kitchen");
+        let subset = Subset { syntax, ..subset(Modifiers::Written) };
+        let [factory, other] = [(); 2].map(|()| AcceptorFactory::new(&session, subset));
+        let vocabulary = Vocabulary::new(&tokens(), END);
+        for seed in 0..8 {
+            let mut dice = Dice::new(seed);
+            let mut decoder = factory.decoder(&vocabulary, 500).unwrap();
+            let mut exact = other.decoder(&vocabulary, 500).unwrap();
+            let begin = match syntax {
+                Syntax::Json => concat!(
+                    r#"{"motet":1,"policy":"p","result":null,"robot":"hsr","achieves":null,"keep":null,"#,
+                    r#""steps":["#
+                ),
+                Syntax::Text => "policy p for hsr { ",
+            };
+            for byte in begin.bytes() {
+                assert!(decoder.accept(u32::from(byte)) && exact.accept(u32::from(byte)), "{begin}");
+            }
+            for _ in 0..150 {
+                let limited = decoder.mask_within(effort).to_vec();
+                if limited.iter().all(|word| *word == 0) {
+                    break;
+                }
+                let mask = exact.mask().to_vec();
+                let is_set = |mask: &[u32], token: u32| mask[token as usize / 32] >> (token % 32) & 1 == 1;
+                assert!(decoder.is_wide() || limited == mask, "{seed}: a mask that is not wide is wrong");
+                assert!(limited.iter().zip(&mask).all(|(limited, exact)| exact & !limited == 0), "{seed}");
+                wide += usize::from(limited != mask);
+                let count = u32::try_from(vocabulary.len()).unwrap();
+                let open: Vec<u32> = (0..count).filter(|token| is_set(&limited, *token)).collect();
+                // Long tokens lead further.
+                let long: Vec<u32> = open.iter().copied().filter(|token| *token >= 256).collect();
+                let from = if long.is_empty() || dice.chance(30) { &open } else { &long };
+                let mut token = from[dice.below(from.len())];
+                while !decoder.accept(token) {
+                    assert!(!is_set(&mask, token), "{seed}: {token} was refused");
+                    refused += 1;
+                    let limited = decoder.mask_within(effort);
+                    assert!(!is_set(limited, token), "{seed}: a refused token is offered again");
+                    let open: Vec<u32> = (0..count).filter(|token| is_set(limited, *token)).collect();
+                    token = open[dice.below(open.len())];
+                }
+                assert!(exact.accept(token), "{seed}: {token} was accepted");
+                if dice.chance(20) {
+                    // What was left open is not remembered.
+                    assert_eq!(decoder.mask(), exact.mask(), "{seed}");
+                }
+            }
+        }
+    }
+    assert!(wide > 20 && refused > 5, "{wide} wide masks, {refused} refusals");
+}
+
+#[test]
 fn acceptor_forces_text_and_explains_refusals() {
     let session = session("hsr", "kitchen");
     let factory = AcceptorFactory::new(&session, subset(Modifiers::Default));
