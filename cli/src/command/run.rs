@@ -307,8 +307,8 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
             taken.map_err(|astray| differs(astray.to_string()))?;
         }
         if let Some(guard) = &mut guard {
-            if let JournalEntry::Step(StepEntry { event: Some(event), .. }) = entry {
-                guard.event(event);
+            if let JournalEntry::Step(StepEntry { at, event: Some(event), .. }) = entry {
+                guard.event(*at, event);
             }
             replay.effects().iter().for_each(|effect| guard.effect(effect));
         }

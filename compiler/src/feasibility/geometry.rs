@@ -132,6 +132,21 @@ impl Geometry {
         (geometry, Arc::new(fingerprinted(world)))
     }
 
+    /// The world in which the robot stands elsewhere: the pose of its base, and joints by name.
+    pub(super) fn standing(
+        &self,
+        at: &Fingerprinted,
+        base: [f64; 3],
+        joints: &BTreeMap<SmolStr, f64>,
+    ) -> Arc<Fingerprinted> {
+        let mut world = at.world.clone();
+        world.robot.base = base;
+        for (value, dof) in world.robot.joints.iter_mut().zip(self.machine.tree().dofs()) {
+            *value = joints.get(&dof.name).copied().unwrap_or(*value);
+        }
+        Arc::new(fingerprinted(world))
+    }
+
     /// The same geometry, in which some things have no exact pose, as the scene leaves it out: they may be in
     /// the way of any motion, so no motion counts as feasible before it is tried, and a thing itself is
     /// refused only for what holds wherever it stands near the guess, such as its height.

@@ -6,7 +6,7 @@ use smol_str::SmolStr;
 
 use super::geometry::SceneChange;
 use crate::declare::{EffectDef, Library, PrimitiveDef};
-use crate::ir::{Failure, Fluent, MotionKind};
+use crate::ir::{Failure, Fluent, MotionKind, ROBOT, Term};
 
 /// Argument of a motion.
 #[derive(Clone, PartialEq, Debug)]
@@ -121,6 +121,18 @@ pub(super) fn moves_blindly(library: &Library, def: &PrimitiveDef) -> bool {
     let elsewhere = |effect: &EffectDef| items.poses().any(|fluent| fluent == effect.fact.fluent);
     let unseen = def.unsettles.iter().any(|effect| Some(effect.fact.fluent) == items.visible);
     unseen || def.makes.iter().chain(&def.unsettles).any(elsewhere)
+}
+
+/// Returns whether a call of a primitive that breaks off leaves all things and containers as they were.
+pub(super) fn moves_robot_only(library: &Library, def: &PrimitiveDef) -> bool {
+    let items = &library.lang_items;
+    let is_of_robot = |effect: &EffectDef| {
+        let of = effect.fact.args.first();
+        Some(effect.fact.fluent) == items.at && of == Some(&Some(Term::Entity(ROBOT)))
+    };
+    let is_of_thing =
+        |effect: &EffectDef| items.poses().any(|fluent| fluent == effect.fact.fluent) && !is_of_robot(effect);
+    !def.makes.iter().chain(&def.unsettles).any(is_of_thing)
 }
 
 /// Returns whether a call of a primitive may move the robot or a thing.

@@ -1,8 +1,9 @@
 //! Tracker of the world of a run, updated as its calls end, for the motions that were deferred.
 //!
-//! It asks the same queries as the interpretation of a policy, but along the one path of the run. Once the
+//! It asks the same queries as the interpretation of a policy, but along the one path of the run. While the
 //! pose of the robot or a thing is unknown, every motion is unknown.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use motet_geometry::planning::{Infeasible, MapPose, MotionAnswer, MotionQuery, UnknownReason};
@@ -13,7 +14,8 @@ use smol_str::{SmolStr, format_smolstr};
 
 use super::geometry::{Fingerprinted, Geometry, SceneChange};
 use super::motion::{
-    MotionArg, MotionEffect, failures, makes, may_move, motion_effect, motion_query, moves_blindly, side_of,
+    MotionArg, MotionEffect, failures, makes, may_move, motion_effect, motion_query, moves_blindly,
+    moves_robot_only, side_of,
 };
 use super::transfer::{graph_witness, leaves};
 use crate::declare::{Library, PrimitiveDef};
@@ -26,6 +28,8 @@ pub struct WorldTracker {
     geometry: Arc<Geometry>,
     /// The world, or the reason why it is unknown.
     at: Result<Arc<Fingerprinted>, SmolStr>,
+    /// The world before a call that moved only the robot and stopped somewhere, until that place is known.
+    stranded: Option<Arc<Fingerprinted>>,
     /// Number of active calls that move the robot or a thing.
     moving: u32,
     /// Things that were seen while something moved: they stand there once that is over.
@@ -67,7 +71,7 @@ struct ExecutedCall<'a> {
 impl WorldTracker {
     pub(crate) fn new(library: Arc<Library>, geometry: Arc<Geometry>) -> Self {
         let at = geometry.start();
-        Self { library, geometry, at, moving: 0, seen: Vec::new(), felt: None }
+        Self { library, geometry, at, stranded: None, moving: 0, seen: Vec::new(), felt: None }
     }
 
     /// Forecasts a motion with the arguments `of` for a call of a primitive, in its manner, in the present
@@ -139,8 +143,20 @@ impl WorldTracker {
     pub fn stopped(&mut self, primitive: &str) {
         self.over(primitive);
         if self.is_moving(primitive) {
+            let before = self.at.clone().ok().or_else(|| self.stranded.take());
             self.lose(&format!("where `{primitive}` stopped is not known"));
+            let def = primitive_of(&self.library, primitive);
+            self.stranded = before.filter(|_| def.is_some_and(|def| moves_robot_only(&self.library, def)));
         }
+    }
+
+    /// Takes in where the robot stands: base pose x, y in m and yaw in rad in the frame `map`, and positions
+    /// of joints by name, in rad or m. Behind a call that moved only the robot and was interrupted or failed,
+    /// motions are found from there; otherwise nothing changes.
+    pub fn stands(&mut self, base: [f64; 3], joints: &BTreeMap<SmolStr, f64>) {
+        let Some(before) = self.stranded.take_if(|_| self.moving == 0) else { return };
+        self.at = Ok(self.geometry.standing(&before, base, joints));
+        self.take_in();
     }
 
     /// Takes in things where they were seen, also those that the scene lacks. What the hand holds stays
@@ -187,6 +203,7 @@ impl WorldTracker {
     }
 
     fn lose(&mut self, why: &str) {
+        self.stranded = None;
         if self.at.is_ok() {
             self.at = Err(why.into());
         }

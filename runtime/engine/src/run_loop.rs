@@ -180,7 +180,7 @@ pub fn resume(
         if let Some(event) = host.first.pop_front() {
             host.observer.event(host.now, &event);
             if let Some(verifier) = host.observer.verifier() {
-                verifier.event(&event);
+                verifier.event(host.now, &event);
             }
             engine.handle(host.now, event, &mut host.out);
             if let Some(end) = host.carry_out().or_else(|| host.swap(engine)) {
@@ -270,9 +270,15 @@ impl RunLoop<'_> {
     /// Hands to the observer what the driver reports beside the engine's events. What follows from detections
     /// goes to the engine.
     fn read_telemetry(&mut self, engine: &Engine) {
-        if self.observer.wants_telemetry() {
+        let is_wanted = self.observer.wants_telemetry();
+        if is_wanted || self.observer.verifier().is_some() {
             while let Some(moved) = self.driver.telemetry() {
-                self.observer.moved(&moved);
+                if let Some(verifier) = self.observer.verifier() {
+                    verifier.moved(&moved);
+                }
+                if is_wanted {
+                    self.observer.moved(&moved);
+                }
             }
         }
         if self.observer.wants_picture() {

@@ -8,6 +8,8 @@ use crate::effect::{DeferredMotion, Effect};
 use crate::event::{Event, Verification};
 use crate::ids::CheckId;
 use crate::query::{Query, Truth};
+use crate::telemetry::Moved;
+use crate::time::Time;
 use std::sync::Arc;
 
 use motet_stdlib::lang;
@@ -25,8 +27,11 @@ use motet_stdlib::lang;
 /// 4. None of its calls keeps a robot waiting: who has to search for long does it on a thread of its own.
 ///    Where time is virtual it may search at once, so that a run is the same each time.
 pub trait Verifier {
-    /// An event is about to be handled: what follows from it for the world.
-    fn event(&mut self, event: &Event);
+    /// An event is about to be handled at a time: what follows from it for the world.
+    fn event(&mut self, now: Time, event: &Event);
+
+    /// The driver told where the robot is. Not all drivers do.
+    fn moved(&mut self, _moved: &Moved) {}
 
     /// An effect is about to be carried out.
     fn effect(&mut self, effect: &Effect);

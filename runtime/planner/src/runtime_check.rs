@@ -9,13 +9,17 @@ use motet_compiler::{Forecast, WorldTracker};
 use motet_graph::Value;
 use motet_robots::scene::{Entity, Grip};
 use motet_runtime::{
-    Answer, CheckId, Command, DeferredMotion, DriverEvent, Effect, Event, GoalId, Outcome, Pattern, Query,
-    Time, Verification, Verifier,
+    Answer, CheckId, Command, DeferredMotion, DriverEvent, Effect, Event, GoalId, Moved, Outcome, Pattern,
+    Query, Time, Verification, Verifier,
 };
 use motet_stdlib::lang;
 
 /// Time limit of the engine for a verdict: longer than any search within its budget.
 pub const WITHIN: Time = Time::from_nanos(10_000_000_000);
+
+/// Greatest age of a report of where the robot is at which it counts: a little more than the span between two
+/// reports. A stopped robot stands where such a report says.
+const RECENT: Time = Time::from_nanos(25_000_000);
 
 /// Checks the deferred motions of a run, and tracks the scene along the run.
 #[derive(Debug)]
@@ -41,7 +45,8 @@ pub enum CheckMode {
 /// Message to the thread of the checks.
 #[derive(Debug)]
 enum GuardMessage {
-    Reported(DriverEvent),
+    Reported(Time, DriverEvent),
+    Moved(Moved),
     Began(GoalId, Arc<Command>),
     Asked(CheckId, Arc<DeferredMotion>),
     Saw(Vec<Entity>),
@@ -53,7 +58,7 @@ impl Guard {
     pub fn new(course: WorldTracker, verifies: CheckMode) -> Self {
         match verifies {
             CheckMode::AtOnce => {
-                let tracker = RunTracker { course, live: BTreeMap::new() };
+                let tracker = RunTracker::new(course);
                 Self(Schedule::AtOnce { tracker, verdicts: VecDeque::new() })
             }
             CheckMode::Background => Self::in_background(course),
@@ -64,7 +69,7 @@ impl Guard {
         let (thread, message) = mpsc::channel();
         let (answers, verdicts) = mpsc::channel();
         std::thread::spawn(move || {
-            let mut tracker = RunTracker { course, live: BTreeMap::new() };
+            let mut tracker = RunTracker::new(course);
             for one in message {
                 if let Some(verdict) = tracker.hear(one)
                     && answers.send(verdict).is_err()
@@ -96,10 +101,14 @@ impl Guard {
 }
 
 impl Verifier for Guard {
-    fn event(&mut self, event: &Event) {
+    fn event(&mut self, now: Time, event: &Event) {
         if let Event::Driver(event) = event {
-            self.tell(GuardMessage::Reported(event.clone()));
+            self.tell(GuardMessage::Reported(now, event.clone()));
         }
+    }
+
+    fn moved(&mut self, moved: &Moved) {
+        self.tell(GuardMessage::Moved(moved.clone()));
     }
 
     fn effect(&mut self, effect: &Effect) {
@@ -150,21 +159,32 @@ pub(crate) fn grip(query: &Query, value: &Value) -> Option<Grip> {
 struct RunTracker {
     course: WorldTracker,
     live: BTreeMap<GoalId, Arc<Command>>,
+    /// Where the robot was, by the driver's latest report.
+    stood: Option<Moved>,
 }
 
 impl RunTracker {
+    fn new(course: WorldTracker) -> Self {
+        Self { course, live: BTreeMap::new(), stood: None }
+    }
+
     /// Takes in a message; returns the verdict if the message requests one.
     fn hear(&mut self, message: GuardMessage) -> Option<(CheckId, Verification)> {
         match message {
-            GuardMessage::Reported(event) => self.report(&event),
+            GuardMessage::Reported(now, event) => self.report(now, &event),
             GuardMessage::Began(goal, command) => self.began(goal, command),
+            GuardMessage::Moved(moved) => {
+                let stood = self.stood.get_or_insert_default();
+                stood.merge(&moved);
+                self.course.stands(stood.base, &stood.joints);
+            }
             GuardMessage::Saw(things) => self.course.saw(things),
             GuardMessage::Asked(check, motion) => return Some((check, self.motion(&motion))),
         }
         None
     }
 
-    fn report(&mut self, event: &DriverEvent) {
+    fn report(&mut self, now: Time, event: &DriverEvent) {
         match event {
             DriverEvent::Ended { goal, outcome } => {
                 let Some(command) = self.live.remove(goal) else { return };
@@ -172,7 +192,7 @@ impl RunTracker {
                     Outcome::Success(value) => {
                         self.course.succeeded(&command.primitive, &command.args, value.as_ref());
                     }
-                    Outcome::Failure(_) | Outcome::Interrupted => self.course.stopped(&command.primitive),
+                    Outcome::Failure(_) | Outcome::Interrupted => self.stopped(now, &command.primitive),
                 }
             }
             DriverEvent::Refused { goal, .. } => {
@@ -182,7 +202,7 @@ impl RunTracker {
             }
             DriverEvent::Stopped { goal } => {
                 if let Some(command) = self.live.remove(goal) {
-                    self.course.stopped(&command.primitive);
+                    self.stopped(now, &command.primitive);
                 }
             }
             DriverEvent::Observed { query: Query::Fact { fluent, args }, answer: Answer::Truth(holds) } => {
@@ -198,6 +218,13 @@ impl RunTracker {
             | DriverEvent::Feedback { .. } => {}
             DriverEvent::NotHeld { .. } | DriverEvent::Lost { .. } => {}
             DriverEvent::DriverLost | DriverEvent::DriverGone => {}
+        }
+    }
+
+    fn stopped(&mut self, now: Time, primitive: &str) {
+        self.course.stopped(primitive);
+        if let Some(stood) = self.stood.as_ref().filter(|stood| now.since(stood.at) <= RECENT) {
+            self.course.stands(stood.base, &stood.joints);
         }
     }
 

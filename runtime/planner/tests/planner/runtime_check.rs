@@ -9,8 +9,8 @@ use motet_planner::runtime_check::{CheckMode, Guard, WITHIN};
 use motet_robots::scene::{Entity, Grip, Placement, Scene};
 use motet_runtime::journal::{EngineReplay, JournalEntry, JournalHead, StepEntry};
 use motet_runtime::{
-    CheckId, DeferredMotion, Driver, Effect, Engine, EngineSettings, Event, Observer, RunControl, RunEnd,
-    StartState, Time, TraceEventKind, Verification, Verifier, run,
+    CheckId, DeferredMotion, Driver, Effect, Engine, EngineSettings, Event, Moved, Observer, RunControl,
+    RunEnd, StartState, Time, TraceEventKind, Verification, Verifier, run,
 };
 use motet_sim::{PersonScript, Sim, SimOptions};
 use motet_syntax::{FileId, Source};
@@ -26,8 +26,12 @@ fn compile(session: &Session, policy: &str) -> Graph {
 struct Waiting(Guard);
 
 impl Verifier for Waiting {
-    fn event(&mut self, event: &Event) {
-        self.0.event(event);
+    fn event(&mut self, now: Time, event: &Event) {
+        self.0.event(now, event);
+    }
+
+    fn moved(&mut self, moved: &Moved) {
+        self.0.moved(moved);
     }
 
     fn effect(&mut self, effect: &Effect) {
@@ -211,8 +215,8 @@ impl Observer for Patient {
 
 /// Takes its time: so many glances until the verdict is there.
 impl Verifier for Patient {
-    fn event(&mut self, event: &Event) {
-        self.host.guard.event(event);
+    fn event(&mut self, now: Time, event: &Event) {
+        self.host.guard.event(now, event);
     }
 
     fn effect(&mut self, effect: &Effect) {
@@ -281,6 +285,41 @@ fn knowledge_after_a_run_has_the_grip_of_what_it_took() {
     };
     assert_eq!(learn(&mut known, "policy drive for hsr {\n go(user)\n}"), placed.robot.grip);
     assert_eq!(learn(&mut known, "policy take for hsr {\n go(apple)\n pick(apple)\n}"), None);
+}
+
+#[test]
+fn runtime_check_behind_an_interrupted_drive_begins_where_the_robot_stands() {
+    let policy = "policy turn_back for hsr {
+        try { within 2 s { go(kitchen_table) } } catch timeout { go(sink) }
+    }";
+    let (end, told) = play(&kitchen(), policy);
+    assert!(matches!(end, RunEnd::Done { .. }), "{end:?}, {told:#?}");
+    assert_eq!(told[1..3], ["verify go_to(sink)", "feasible"], "{told:#?}");
+}
+
+#[test]
+fn tracker_finds_motions_again_once_it_is_told_where_the_robot_stands() {
+    let mut tracker = session(&kitchen()).world_tracker().unwrap();
+    let to = Value::Entity("sink".into());
+    let args = [("to".into(), to.clone())];
+    let motion = |tracker: &motet_compiler::WorldTracker| {
+        tracker.motion("go", (&args, None), "go_to", std::slice::from_ref(&to))
+    };
+    let base = [0.5, 0.25, 0.125];
+    for primitive in ["go", "search"] {
+        tracker.began(primitive);
+        tracker.stands([9.0; 3], &[].into());
+        tracker.stopped(primitive);
+        assert!(matches!(motion(&tracker), Forecast::Unknown { .. }), "{primitive}");
+        tracker.stands(base, &[("arm_lift_joint".into(), 0.05)].into());
+        let Forecast::Feasible { witness, .. } = motion(&tracker) else { panic!("{primitive}") };
+        assert_eq!(witness.path[0].base, base, "{primitive}");
+    }
+    // What the hand holds behind a grasp that broke off is not known.
+    tracker.began("pick");
+    tracker.stopped("pick");
+    tracker.stands(base, &[].into());
+    assert!(matches!(motion(&tracker), Forecast::Unknown { .. }));
 }
 
 #[test]
