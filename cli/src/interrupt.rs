@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU32, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::Duration;
 
 use motet_runtime::journal::OpenGoals;
@@ -15,27 +15,57 @@ use crate::typed_line;
 /// Interval at which a waiting run checks for an interrupt.
 pub(crate) const SLICE: Duration = Duration::from_millis(50);
 
-/// Number of requests to stop: presses of Ctrl-C, SIGTERM, and SIGHUP, which a closed terminal sends.
+/// Number of requests to stop: presses of Ctrl-C, and other signals to end.
 static REQUESTS: AtomicU32 = AtomicU32::new(0);
 
 /// Commands that may move the robot, by their goals. They stay until the driver has said that they ended or
 /// stand still, or the run has given up waiting for that.
 static MOVING: Mutex<BTreeMap<GoalId, String>> = Mutex::new(BTreeMap::new());
 
-/// Turns a signal to end into a request to stop. The second one ends the process where nothing can move;
-/// otherwise it says what may move, and the process ends with the safe stop.
+/// Turns each signal to end that a process can handle into a request to stop. The second one ends the process
+/// where nothing can move; otherwise it says what may move, and the process ends with the safe stop.
 pub(crate) fn catch_interrupts() -> Result<(), CliError> {
-    ctrlc::set_handler(|| {
-        if REQUESTS.fetch_add(1, Ordering::SeqCst) == 0 {
-            return;
+    static CAUGHT: OnceLock<Result<(), String>> = OnceLock::new();
+    let caught = CAUGHT.get_or_init(|| catch().map_err(|error| error.to_string()));
+    caught.clone().map_err(|error| CliError::Message(format!("cannot handle Ctrl-C: {error}")))
+}
+
+#[cfg(unix)]
+fn catch() -> std::io::Result<()> {
+    use signal_hook::consts::{
+        SIGALRM, SIGHUP, SIGINT, SIGPROF, SIGQUIT, SIGTERM, SIGTSTP, SIGUSR1, SIGUSR2, SIGVTALRM, SIGXCPU,
+    };
+    let ends = [SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGALRM, SIGVTALRM, SIGPROF, SIGXCPU];
+    let mut signals = signal_hook::iterator::Signals::new(ends.into_iter().chain([SIGTSTP]))?;
+    let each = move || {
+        for signal in signals.forever() {
+            match signal {
+                // A suspended run would watch nothing while the robot moves.
+                SIGTSTP if note_moving() => note("so the run is not suspended; Ctrl-C stops it"),
+                SIGTSTP => {
+                    let _ = signal_hook::low_level::emulate_default_handler(SIGTSTP);
+                }
+                _ => request_stop(),
+            }
         }
-        if !note_moving() {
-            typed_line::restore();
-            std::process::exit(130);
-        }
-        note("the run ends once the driver has confirmed the stop, or has not answered in time");
-    })
-    .map_err(|error| CliError::Message(format!("cannot handle Ctrl-C: {error}")))
+    };
+    std::thread::Builder::new().name("signals".to_owned()).spawn(each).map(drop)
+}
+
+#[cfg(not(unix))]
+fn catch() -> Result<(), ctrlc::Error> {
+    ctrlc::set_handler(request_stop)
+}
+
+fn request_stop() {
+    if REQUESTS.fetch_add(1, Ordering::SeqCst) == 0 {
+        return;
+    }
+    if !note_moving() {
+        typed_line::restore();
+        std::process::exit(130);
+    }
+    note("the run ends once the driver has confirmed the stop, or has not answered in time");
 }
 
 fn moving() -> MutexGuard<'static, BTreeMap<GoalId, String>> {

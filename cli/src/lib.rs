@@ -140,8 +140,8 @@ static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
 /// or 130 for an interrupted run. Output goes to stdout and stderr of the process.
 ///
 /// `program` is the path of a program that runs this command, for drivers that call it; without one it is
-/// the executable of this process. A command takes over SIGINT, SIGTERM and SIGHUP of the process while it
-/// runs a policy.
+/// the executable of this process. From its first run of a policy on, the command handles SIGINT,
+/// SIGTERM and the other signals that would end the process.
 pub fn run(words: impl IntoIterator<Item = OsString>, program: Option<PathBuf>) -> u8 {
     program.into_iter().for_each(|program| {
         let _ = PROGRAM.set(program);

@@ -6,7 +6,7 @@ use motet_graph::Pose;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 
 /// Telemetry: configuration of the robot and poses of things at a time. Lengths in m, angles in rad, poses in
 /// the frame `map`.
@@ -23,12 +23,19 @@ pub struct Moved {
 }
 
 impl Moved {
-    /// Takes in later telemetry, of which what has not changed may be left out.
+    /// Takes in later telemetry, of which what has not changed may be left out. O(joints + things).
     pub fn merge(&mut self, later: &Self) {
         (self.at, self.base) = (later.at, later.base);
         self.joints.extend(later.joints.clone());
-        self.things.retain(|known| later.things.iter().all(|thing| thing.id != known.id));
-        self.things.extend(later.things.iter().cloned());
+        let known = self.things.iter().map(|thing| thing.id.clone()).zip(0..);
+        let mut places: HashMap<SmolStr, usize> = known.collect();
+        for thing in &later.things {
+            let place = *places.entry(thing.id.clone()).or_insert(self.things.len());
+            match self.things.get_mut(place) {
+                Some(known) => *known = thing.clone(),
+                None => self.things.push(thing.clone()),
+            }
+        }
     }
 }
 

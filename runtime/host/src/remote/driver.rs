@@ -65,6 +65,8 @@ pub struct RemoteDriver {
     feedback: LineRate,
     facts: LineRate,
     detections: LineRate,
+    /// Bytes of reports.
+    bytes: LineRate,
     said_at: Instant,
     /// It was asked for more than a sign of life since it said something.
     is_asked: bool,
@@ -147,6 +149,7 @@ impl RemoteDriver {
             feedback: LineRate::default(),
             facts: LineRate::default(),
             detections: LineRate::default(),
+            bytes: LineRate::default(),
             said_at: Instant::now(),
             is_asked: false,
             restarts: patience.restarts,

@@ -1,7 +1,9 @@
 //! Lines to and from a driver. Two threads read and write, so that a driver that does not listen holds up
 //! nobody.
 
-use super::protocol::{MAX_BEFORE_ANSWER, MAX_BREACHES, MAX_LINE_BYTES, MAX_LOOK_BYTES, MAX_WAITING};
+use super::protocol::{
+    MAX_BEFORE_ANSWER, MAX_BREACHES, MAX_FACT_BYTES, MAX_LINE_BYTES, MAX_LOOK_BYTES, MAX_WAITING,
+};
 use motet_runtime::Time;
 use std::fmt;
 use std::io::{self, BufRead, BufReader, Read, Write};
@@ -33,6 +35,8 @@ pub enum LinkError {
     Flood,
     /// It said more than so many of something in a second.
     Hasty(u32, &'static str),
+    /// It told a fact that is not watched in too long a line.
+    LongFact,
     /// It said more before an answer than is kept.
     Crowded,
     /// It broke more promises than are borne.
@@ -65,6 +69,9 @@ impl fmt::Display for LinkError {
             Self::Deaf => f.write_str("the driver does not read its messages"),
             Self::Flood => {
                 write!(f, "the driver said a line of more than {MAX_LINE_BYTES} bytes, or a larger picture")
+            }
+            Self::LongFact => {
+                write!(f, "the driver told a fact that is not watched in more than {MAX_FACT_BYTES} bytes")
             }
             Self::Hasty(most, what) => write!(f, "the driver said more than {most} {what} in a second"),
             Self::Crowded => {

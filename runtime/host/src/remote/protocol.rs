@@ -469,6 +469,14 @@ pub(crate) const MAX_FACTS_A_SECOND: u32 = 2_000;
 /// The most things that a driver may report as `detected` in a second of the wall clock. One that reports
 /// more counts as gone: to take all of them into the scene would hold the run up.
 pub(crate) const MAX_DETECTIONS_A_SECOND: u32 = 5_000;
+/// The longest line in bytes that tells a fact which is not watched. A driver that says a longer one counts
+/// as gone: such facts are kept until the run ends.
+pub(crate) const MAX_FACT_BYTES: u32 = 4_096;
+/// The most bytes of reports in a second of the wall clock. A driver that says more counts as gone: what is
+/// important would come too late.
+pub(crate) const MAX_REPORT_BYTES_A_SECOND: u32 = 32 * 1024 * 1024;
+/// The most joints and things that a driver may tell of by `moved` in a run. Others are dropped.
+pub(crate) const MAX_MOVED_NAMES: usize = 10_000;
 /// The most promises that a driver may break in a run before it counts as gone.
 pub(crate) const MAX_BREACHES: u32 = 1_000;
 /// The most lines that wait to be heard, and the most that wait to be said.

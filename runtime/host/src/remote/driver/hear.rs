@@ -3,9 +3,9 @@
 use super::super::link::LinkError;
 use super::super::protocol::{
     DriverCall, DriverMessage, DriverReport, EmptyParams, FeedbackParams, GoalParams,
-    MAX_DETECTIONS_A_SECOND, MAX_FACTS_A_SECOND, MAX_FEEDBACK, MAX_FEEDBACK_A_SECOND, MAX_KIND_BYTES,
-    MAX_LINES_A_SECOND, MAX_WAITING, QueryParams, QueryResult, REFUSED, RefusedData, RpcError, SAYINGS, hear,
-    heard,
+    MAX_DETECTIONS_A_SECOND, MAX_FACT_BYTES, MAX_FACTS_A_SECOND, MAX_FEEDBACK, MAX_FEEDBACK_A_SECOND,
+    MAX_KIND_BYTES, MAX_LINES_A_SECOND, MAX_MOVED_NAMES, MAX_REPORT_BYTES_A_SECOND, MAX_WAITING, QueryParams,
+    QueryResult, REFUSED, RefusedData, RpcError, SAYINGS, hear, heard,
 };
 use super::{LineFrom, RemoteDriver, Waiting, failed, nonsense};
 use motet_runtime::{Answer, DriverEvent, FailureReport, GoalId, OWN_MOTION, Outcome};
@@ -58,6 +58,16 @@ impl RemoteDriver {
                 } else if id >= self.next_id.load(Ordering::SeqCst) {
                     self.broke(&nonsense(line, "nothing with this number was asked".to_owned()));
                 }
+            }
+            Ok(DriverMessage::Report(_))
+                if self.bytes.exceeds_by(line.len(), MAX_REPORT_BYTES_A_SECOND, self.heard_at) =>
+            {
+                self.broke(&LinkError::Hasty(MAX_REPORT_BYTES_A_SECOND, "bytes of reports"));
+            }
+            Ok(DriverMessage::Report(DriverReport::Observed(observed)))
+                if line.len() > MAX_FACT_BYTES as usize && !self.watches.contains(&observed.query) =>
+            {
+                self.broke(&LinkError::LongFact);
             }
             Ok(DriverMessage::Report(report)) => self.told(report),
             Err(why) => self.broke(&nonsense(line, why)),
@@ -131,8 +141,11 @@ impl RemoteDriver {
                 self.report(DriverEvent::Feedback { goal, text, own_motion });
             }
             DriverReport::Moved(moved) => {
-                let moved = moved.moved(self.time.now(), self.time.is_own());
-                moved.into_iter().for_each(|moved| self.telemetry.push_moved(moved));
+                let Some(mut moved) = moved.moved(self.time.now(), self.time.is_own()) else { return };
+                if self.telemetry.cut(&mut moved) {
+                    self.breach(&format!("telemetry of more than {MAX_MOVED_NAMES} joints and things"));
+                }
+                self.telemetry.push_moved(moved);
             }
             DriverReport::Detected(seen)
                 if self.detections.exceeds_by(

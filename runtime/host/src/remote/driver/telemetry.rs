@@ -1,7 +1,10 @@
 //! Queue of what a driver reports beside the events of the engine, bounded however much it says.
 
 use motet_runtime::{Detection, Heard, Moved, Time};
-use std::collections::VecDeque;
+use smol_str::SmolStr;
+use std::collections::{HashSet, VecDeque};
+
+use super::super::protocol::MAX_MOVED_NAMES;
 
 /// Telemetry of one such span is one report: 50 a second.
 const SPAN: Time = Time::from_nanos(20_000_000);
@@ -13,6 +16,8 @@ pub(super) struct TelemetryQueue {
     moved: VecDeque<Moved>,
     detected: VecDeque<Vec<Detection>>,
     heard: VecDeque<Heard>,
+    /// Names of the joints and things of all reports.
+    names: HashSet<SmolStr>,
     /// Latest pose of the base.
     pub(super) base: Option<[f64; 3]>,
 }
@@ -22,9 +27,22 @@ impl TelemetryQueue {
         self.base = Some(moved.base);
         let span = |at: Time| at.nanos() / SPAN.nanos();
         match self.moved.back_mut() {
-            Some(last) if span(last.at) == span(moved.at) => merge(last, moved),
+            Some(last) if span(last.at) == span(moved.at) => last.merge(&moved),
             _ => push(&mut self.moved, moved),
         }
+    }
+
+    /// Drops the joints and things of a report with which a run would have more than [`MAX_MOVED_NAMES`].
+    /// Returns whether there are any.
+    pub(super) fn cut(&mut self, moved: &mut Moved) -> bool {
+        let names = &mut self.names;
+        let mut has_room = |name: &SmolStr| {
+            names.contains(name) || (names.len() < MAX_MOVED_NAMES && names.insert(name.clone()))
+        };
+        let before = moved.joints.len() + moved.things.len();
+        moved.joints.retain(|name, _| has_room(name));
+        moved.things.retain(|thing| has_room(&thing.id));
+        moved.joints.len() + moved.things.len() < before
     }
 
     pub(super) fn push_detected(&mut self, seen: Vec<Detection>) {
@@ -55,22 +73,9 @@ fn push<T>(queue: &mut VecDeque<T>, item: T) {
     queue.push_back(item);
 }
 
-/// Adds a later report: what it leaves out has not changed.
-fn merge(last: &mut Moved, next: Moved) {
-    let Moved { at, base, joints, things } = next;
-    (last.at, last.base) = (at, base);
-    last.joints.extend(joints);
-    for thing in things {
-        match last.things.iter_mut().find(|known| known.id == thing.id) {
-            Some(known) => *known = thing,
-            None => last.things.push(thing),
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{MOST, TelemetryQueue};
+    use super::{MAX_MOVED_NAMES, MOST, TelemetryQueue};
     use motet_runtime::{Moved, MovedThing, Time};
 
     fn moved(secs: f64, x: f64, joint: &str, things: &[&str]) -> Moved {
@@ -96,6 +101,16 @@ mod tests {
         assert_eq!(first.things, moved(0.0, 2.0, "", &["mug", "cup"]).things);
         assert_eq!(queue.moved().map(|next| next.base), Some([3.0, 0.0, 0.0]));
         assert_eq!(queue.moved(), None);
+    }
+
+    #[test]
+    fn telemetry_queue_takes_a_limited_number_of_names() {
+        let mut queue = TelemetryQueue::default();
+        let mut told = (0..MAX_MOVED_NAMES).map(|name| moved(0.0, 0.0, &name.to_string(), &[]));
+        assert!(told.all(|mut moved| !queue.cut(&mut moved)));
+        let mut more = moved(0.0, 0.0, "7", &["mug"]);
+        assert!(queue.cut(&mut more));
+        assert_eq!((more.joints.len(), more.things.len()), (1, 0));
     }
 
     #[test]
