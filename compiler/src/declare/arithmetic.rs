@@ -42,7 +42,7 @@ impl Elaborator<'_> {
         };
         let ty = Ty::plain(base);
         if op == ArithOp::Divide && literal(&right) == Some(0.0) {
-            self.report(diagnostics::DivisionByZero { span });
+            self.report(diagnostics::ResultWithoutValue { span, is_division_by_zero: true });
             return (Term::Unknown, ty);
         }
         let known = literal(&left).zip(literal(&right)).map(|(a, b)| match op {
@@ -51,7 +51,11 @@ impl Elaborator<'_> {
             ArithOp::Multiply => a * b,
             ArithOp::Divide => a / b,
         });
-        match known.filter(|value| value.is_finite()) {
+        match known {
+            Some(value) if !value.is_finite() => {
+                self.report(diagnostics::ResultWithoutValue { span, is_division_by_zero: false });
+                (Term::Unknown, ty)
+            }
             Some(value) if whole => (Term::Int(value as i64), ty),
             Some(value) => (Term::Number(value), ty),
             None => (Term::Arith(op, Box::new(left), Box::new(right)), ty),

@@ -351,10 +351,13 @@ motet_syntax::mistakes! {
     message(m) { m.what.clone() }
     help(m) { Some(m.remedy.clone()) }
 
-    /// Division by a number that is written out as zero.
-    DivisionByZero("M0321", Error) { }
-    message(_m) { "a division by zero has no value".to_owned() }
-    help(_m) { Some("divide by another number".to_owned()) }
+    /// Calculation with numbers that are written out, and without a finite result.
+    ResultWithoutValue("M0321", Error) { is_division_by_zero: bool }
+    message(m) {
+        let what = if m.is_division_by_zero { "a division by zero has no value" } else { "the result is too large" };
+        what.to_owned()
+    }
+    help(m) { Some(if m.is_division_by_zero { "divide by another number" } else { "use smaller numbers" }.to_owned()) }
 
     /// Limit of the library that is exceeded, such as the parameters of a fluent.
     LimitExceeded("M0314", Error) { what: &'static str, limit: usize }

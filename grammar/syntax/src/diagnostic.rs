@@ -149,8 +149,8 @@ impl<M: Mistake> From<M> for Diagnostic {
         Self {
             code: M::CODE,
             severity: M::SEVERITY,
-            message: mistake.message(),
-            help: mistake.help(),
+            message: clipped(mistake.message()),
+            help: mistake.help().map(clipped),
             span: mistake.span(),
             path: String::new(),
             related: mistake.related(),
@@ -158,6 +158,19 @@ impl<M: Mistake> From<M> for Diagnostic {
             about: mistake.about(),
         }
     }
+}
+
+/// Longest message and help in bytes: a token of the input may be very long.
+const MAX_MESSAGE_BYTES: usize = 4_000;
+
+/// The beginning and the end of a text that is too long.
+fn clipped(text: String) -> String {
+    if text.len() <= MAX_MESSAGE_BYTES {
+        return text;
+    }
+    let (begin, end) = (MAX_MESSAGE_BYTES / 2, text.len() - MAX_MESSAGE_BYTES / 2);
+    let (begin, end) = (text.floor_char_boundary(begin), text.ceil_char_boundary(end));
+    format!("{} … {}", text.get(..begin).unwrap_or_default(), text.get(end..).unwrap_or_default())
 }
 
 /// Declares structs that implement [`crate::Mistake`], and `CODES`, the list of their codes.
@@ -227,4 +240,17 @@ macro_rules! mistakes {
             }
         )*
     };
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{MAX_MESSAGE_BYTES, clipped};
+
+    #[test]
+    fn clipped_keeps_the_ends_of_a_long_text() {
+        let text = format!("unknown name `{}`", "é".repeat(MAX_MESSAGE_BYTES));
+        let short = clipped(text);
+        assert!(short.len() <= MAX_MESSAGE_BYTES + 5, "{}", short.len());
+        assert!(short.starts_with("unknown name `é") && short.ends_with("é`") && short.contains(" … "));
+    }
 }
