@@ -30,7 +30,7 @@ class Picture:
     def points(self):
         """Points in the map of all pixels, as an array of rows and columns."""
         if self.placed is None:
-            local = rays(self.depth.shape, self.focal) * self.depth[..., None]
+            local = rays(self.depth.shape, self.focal) * self.depth[..., None].astype(np.float32)
             self.placed = cv2.transform(local, np.column_stack([self.rotation, self.position]))
         return self.placed
 
@@ -102,8 +102,6 @@ class Camera:
                 self.graphics = Graphics(mj)
             except Exception as error:  # each library has exceptions of its own
                 raise NoGraphics("no picture can be rendered (%s); install EGL, or run with --oracle" % error) from None
-            # The first picture of a context differs a little from the same one later.
-            self.graphics.render(world.data, at)
         mujoco.mj_camlight(mj, world.data)
         colour, depth = self.graphics.render(world.data, at)
         focal = HEIGHT / 2.0 / np.tan(np.radians(mj.cam_fovy[at]) / 2.0)
@@ -119,9 +117,9 @@ class Graphics:
     no large font."""
 
     def __init__(self, mj):
-        mj.vis.quality.offsamples = 0
-        self.mj, self.scene = mj, mujoco.MjvScene(mj, mj.ngeom + SHOWN)
         # On a CPU, shadows and smooth edges take ten times as long as the picture.
+        mj.vis.quality.offsamples = mj.vis.quality.shadowsize = 0
+        self.mj, self.scene = mj, mujoco.MjvScene(mj, mj.ngeom + SHOWN)
         self.scene.flags[mujoco.mjtRndFlag.mjRND_SHADOW] = 0
         self.options, self.camera = mujoco.MjvOption(), mujoco.MjvCamera()
         self.camera.type = mujoco.mjtCamera.mjCAMERA_FIXED
@@ -135,7 +133,9 @@ class Graphics:
         """Colours and depths in m of the camera with a number."""
         self.camera.fixedcamid = at
         everything = mujoco.mjtCatBit.mjCAT_ALL.value
-        mujoco.mjv_updateScene(self.mj, data, self.options, None, self.camera, everything, self.scene)
+        for _ in range(2):
+            # The light of the camera is where the camera was in the update before.
+            mujoco.mjv_updateScene(self.mj, data, self.options, None, self.camera, everything, self.scene)
         self.window.make_current()
         mujoco.mjr_render(self.rect, self.scene, self.context)
         colour, depth = np.empty((HEIGHT, WIDTH, 3), dtype=np.uint8), np.empty((HEIGHT, WIDTH), dtype=np.float32)
@@ -157,7 +157,7 @@ def rays(shape, focal):
     height, width = shape
     rows, columns = np.indices(shape)
     across, down = (columns - (width - 1) / 2.0) / focal, (rows - (height - 1) / 2.0) / focal
-    return np.stack([across, down, np.ones(shape)], axis=-1)
+    return np.stack([across, down, np.ones(shape)], axis=-1).astype(np.float32)
 
 
 def quaternion(rotation):

@@ -61,7 +61,7 @@ def detect(picture, solids):
         if label == 0 or counts[label] < SMALLEST:
             continue
         mask = labels == label
-        one = describe(points[mask], picture.colour[mask], mask, picture.position)
+        one = describe(points[mask].astype(float), picture.colour[mask], mask, picture.position)
         if one is not None:
             found.append(one)
     return found
@@ -91,8 +91,12 @@ def belongs(points, solid):
 def components(mask, depth, colour):
     """Connected parts of a mask, cut where depth jumps or the hue changes: an array of labels, 0 outside, in the order
     of their first pixels."""
-    height, width = mask.shape
-    hue, grey = hues(colour)
+    labels = np.zeros(mask.shape, dtype=np.int32)
+    left, top, width, height = cv2.boundingRect(mask.astype(np.uint8))
+    if not width:
+        return labels
+    part = slice(top, top + height), slice(left, left + width)
+    mask, depth, (hue, grey) = mask[part], depth[part], hues(colour[part])
     # Between the pixels stands what connects them.
     grid = np.zeros((2 * height - 1, 2 * width - 1), dtype=np.uint8)
     grid[::2, ::2] = mask
@@ -102,7 +106,8 @@ def components(mask, depth, colour):
         turn = np.abs(hue[one] - hue[two])
         alike = (np.minimum(turn, 360.0 - turn) < HUE) & ~grey[one] & ~grey[two] | grey[one] & grey[two]
         grid[down::2, right::2] = mask[one] & mask[two] & (np.abs(depth[one] - depth[two]) < JUMP) & alike
-    return cv2.connectedComponents(grid, connectivity=4)[1][::2, ::2]
+    labels[part] = cv2.connectedComponents(grid, connectivity=4)[1][::2, ::2]
+    return labels
 
 
 def hues(colour):
