@@ -38,7 +38,7 @@ class Clearance:
             place, rotation = world.tip_frame()
             position, quaternion = beliefs.held_pose(held[0])
             self.grip = rotation.T @ (position - place), rotation.T @ matrix(quaternion)
-        self.margins = self.margins_of({**KEEPS, **(keeps or {})})
+        self.margins = np.maximum(self.model.mj.geom_margin, self.margins_of({**KEEPS, **(keeps or {})}))
         # Geoms of the robot and of what it holds.
         mine = {"robot", self.held} - {None}
         self.mine = np.array([owner in mine for owner in self.model.geom_owner])
@@ -67,13 +67,13 @@ class Clearance:
             turned = np.zeros(4)
             mujoco.mju_mat2Quat(turned, np.ascontiguousarray(rotation @ self.grip[1]).ravel())
             data.qpos[at : at + 3], data.qpos[at + 3 : at + 7] = place + rotation @ self.grip[0], turned
-        find_contacts(self.model, data, np.maximum(mj.geom_margin, self.margins))
+        find_contacts(self.model, data, self.margins)
         found = {bodies: gap for bodies, gap in own_contacts(self.model, data) if bodies not in together(self.model)}
-        geoms = data.contact.geom
-        is_met = (self.mine[geoms].sum(axis=1) == 1) & ~(geoms == self.model.floor).any(axis=1)
-        for at in np.flatnonzero(is_met):
-            bodies = tuple(mj.geom_bodyid[geoms[at]])
-            found[bodies] = min(found.get(bodies, np.inf), data.contact.dist[at])
+        one, other = data.contact.geom.T
+        is_met = (self.mine[one] != self.mine[other]) & (one != self.model.floor) & (other != self.model.floor)
+        for bodies, gap in zip(mj.geom_bodyid[data.contact.geom[is_met]].tolist(), data.contact.dist[is_met].tolist()):
+            bodies = tuple(bodies)
+            found[bodies] = min(found.get(bodies, np.inf), gap)
         return found
 
     def touches_itself(self, target):
@@ -105,7 +105,8 @@ def find_contacts(model, data, margins):
     mj.geom_margin[:], mj.opt.enableflags = margins, 0
     mj.geom_conaffinity[own] |= mj.geom_contype[own]
     mj.body_conaffinity[bodies] |= mj.body_contype[bodies]
-    mujoco.mj_fwdPosition(mj, data)
+    mujoco.mj_kinematics(mj, data)
+    mujoco.mj_collision(mj, data)
     for field, was in zip(fields, before):
         field[:] = was
     mj.opt.enableflags = flags
@@ -113,10 +114,11 @@ def find_contacts(model, data, margins):
 
 def own_contacts(model, data):
     """Pairs of bodies of the robot that are too near to each other, with their distances in m. Fingers may close."""
-    geoms, (own, _) = data.contact.geom, parts(model)
-    is_own = np.isin(geoms, own).all(axis=1) & ~np.isin(geoms, list(model.hand_geoms)).all(axis=1)
-    for at in np.flatnonzero(is_own & (data.contact.dist < OWN)):
-        yield tuple(sorted(int(body) for body in model.mj.geom_bodyid[geoms[at]])), data.contact.dist[at]
+    one, other = data.contact.geom.T
+    own, hand = masks(model)
+    is_own = own[one] & own[other] & ~(hand[one] & hand[other]) & (data.contact.dist < OWN)
+    for bodies, gap in zip(model.mj.geom_bodyid[data.contact.geom[is_own]].tolist(), data.contact.dist[is_own].tolist()):
+        yield tuple(sorted(bodies)), gap
 
 
 @functools.lru_cache(maxsize=4)
@@ -124,6 +126,13 @@ def parts(model):
     """Geoms of the robot, and their bodies."""
     own = [at for at, owner in enumerate(model.geom_owner) if owner == "robot"]
     return own, sorted({int(body) for body in model.mj.geom_bodyid[own]})
+
+
+@functools.lru_cache(maxsize=4)
+def masks(model):
+    """Masks of the geoms of the robot, and of its hand."""
+    geoms = np.arange(model.mj.ngeom)
+    return np.isin(geoms, parts(model)[0]), np.isin(geoms, list(model.hand_geoms))
 
 
 @functools.lru_cache(maxsize=4)
