@@ -18,6 +18,8 @@ from .trail import Trail
 BEGINS = 0.05
 # Error in m or rad of a servo above which something is in the way.
 BLOCKED = 0.12
+# Seconds for which the robot pushes on against something, and after which a thing that the fingers do not feel is lost.
+PUSHES, LOSES = 0.1, 0.05
 # Distances in m that the base draws back where the arm has no room to fold.
 RETREATS = (0.15, 0.3, 0.45)
 # Distances in m, beyond the reach of the robot, of the base from what something hides: most often it is in or on
@@ -69,7 +71,7 @@ class Mover:
         self.planner, self.options = planner, options
         self.goal = world.target.copy()  # targets that the tasks aim at
         self.rate, self.change = np.zeros_like(self.goal), np.zeros_like(self.goal)
-        self.lost = 0
+        self.lost = 0.0
         # The way that the robot came, and whether a motion ended on its way.
         self.trail, self.is_adrift = Trail(world.model.grips), False
 
@@ -91,7 +93,7 @@ class Mover:
         mask = np.any(np.abs(np.array(points) - points[0]) > 1e-9, axis=0)
         if not mask.any():
             return
-        elapsed, behind = 0.0, 0
+        elapsed, behind = 0.0, 0.0
         led = np.array([at for at in np.flatnonzero(mask) if at not in model.grips], dtype=int)
         while elapsed < path.end:
             self.aim(path, elapsed, mask)
@@ -99,8 +101,8 @@ class Mover:
             yield
             self.trail.add(self.goal)
             off = np.abs(world.data.qpos[model.control_qpos[led]] - self.goal[led])
-            behind = behind + 1 if off.max(initial=0.0) > BLOCKED else 0
-            if behind > 25:
+            behind = behind + world.tick if off.max(initial=0.0) > BLOCKED else 0.0
+            if behind > PUSHES:
                 met = self.room.bumped() or what or "something"
                 # What pushes on would push for ever.
                 self.goal[mask] = world.data.qpos[model.control_qpos][mask]
@@ -131,17 +133,18 @@ class Mover:
     def grip(self, closed, seconds):
         """Closes or opens the hand over a time, from where its fingers are."""
         world, model = self.world, self.world.model
-        start = {at: world.data.qpos[model.control_qpos[at]] for at in model.grips}
-        ticks = int(seconds / world.tick)
-        for tick in range(ticks):
-            for at, (opened, shut) in model.grips.items():
-                to = shut if closed else opened
-                self.goal[at] = start[at] + (to - start[at]) * min(2.0 * (tick + 1) / ticks, 1.0)
+        start, elapsed = world.data.qpos[model.control_qpos], 0.0
+        while elapsed < seconds - 1e-9:
+            elapsed += world.tick
+            for at, to in world.fingers(closed, start, 2.0 * elapsed / seconds).items():
+                self.goal[at] = to
             yield
 
     def pause(self, seconds):
         """Waits."""
-        for _ in range(max(1, int(round(seconds / self.world.tick)))):
+        elapsed = 0.0
+        while elapsed < seconds - 1e-9:
+            elapsed += self.world.tick
             yield
 
     def straight(self, way, motion, share=0.8):
@@ -315,11 +318,11 @@ class Mover:
         """A check that fails where a thing is lost from the hand; None without a thing."""
         if thing is None:
             return None
-        self.lost = 0
+        self.lost = 0.0
 
         def watch():
-            self.lost = 0 if self.room.holds(thing) else self.lost + 1
-            if self.lost > 12:
+            self.lost = 0.0 if self.room.holds(thing) else self.lost + self.world.tick
+            if self.lost > LOSES:
                 self.beliefs.forget(thing)
                 raise Failed("slipped", "%s %s" % (thing, how))
 
