@@ -37,7 +37,7 @@ class World:
     def __init__(self, model):
         self.model = model
         self.data = mujoco.MjData(model.mj)
-        self.tick = TICK  # time in s from now to the next target
+        self.tick = TICK  # seconds to the next target
         self.grips, self.still = list(model.grips), np.zeros(model.mj.nu)
         self.fingers_qvel = model.control_qvel[self.grips]
         self.reacher = Reacher(model)
@@ -53,8 +53,9 @@ class World:
         """Back to the start of the scene."""
         mujoco.mj_resetDataKeyframe(self.model.mj, self.data, self.model.mj.key("start").id)
         self.target = np.array(self.data.ctrl)
-        self.integral[:] = 0.0
+        self.integral[:], self.tick = 0.0, TICK
         mujoco.mj_forward(self.model.mj, self.data)
+
     @property
     def now(self):
         """Time in s since the start."""
