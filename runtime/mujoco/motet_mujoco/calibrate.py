@@ -136,8 +136,6 @@ def look(world, thing, witness, rates, chance, found):
         found["camera.miss"].looks += far * 0.1 / float(np.max(extent(world.model.entities[thing])))
     finally:
         eyes.close()
-        if eyes.camera.renderer is not None:
-            eyes.camera.renderer.close()
 
 
 def main(arguments=None):

@@ -1,7 +1,7 @@
-"""Clearance of configurations in the room as the robot believes it to be: may a path cut a corner there?
+"""Collision check of configurations in the room as the robot believes it to be.
 
-The witness of a motion is free of collisions along its legs. Between two legs the robot may go by their corner only
-where this check finds nothing within the distances that the witness keeps, and no two parts of the robot that touch.
+A witness is free of collisions along its legs. The robot may cut the corner between two legs only if nothing in it is
+nearer than the clearance that the witness keeps, and no two parts of the robot touch.
 """
 
 import functools
@@ -11,13 +11,13 @@ import numpy as np
 
 from .motion import set_targets
 
-# Distances in m that base and arm keep where a witness says nothing.
+# Clearance in m of base and arm where the witness gives none.
 KEEPS = {"base": 0.04, "arm": 0.01}
-# Distances in m that they keep on a way on which it is enough to touch nothing.
+# Clearance in m on a way that only has to be free of contact.
 TOUCHES = {"base": 0.0, "arm": 0.0}
-# Distance in m by which what is too near anyway may come nearer.
+# Distance in m by which bodies may come nearer that have less than their clearance before the corner or in it.
 NEARER = 0.001
-# Distance in m that parts of the robot keep from each other: a little more than motions keep.
+# Distance in m below which parts of the robot count as touching: a little more than what the planner keeps.
 OWN = 0.006
 
 
@@ -38,7 +38,7 @@ class Clearance:
             place, rotation = world.tip_frame()
             position, quaternion = beliefs.held_pose(held[0])
             self.grip = rotation.T @ (position - place), rotation.T @ matrix(quaternion)
-        self.margins = self.margins_of({**KEEPS, **(keeps or {})})
+        self.margins = np.maximum(self.model.mj.geom_margin, self.margins_of({**KEEPS, **(keeps or {})}))
         # Geoms of the robot and of what it holds.
         mine = {"robot", self.held} - {None}
         self.mine = np.array([owner in mine for owner in self.model.geom_owner])
@@ -56,8 +56,7 @@ class Clearance:
         return margins
 
     def near(self, target):
-        """Pairs of bodies nearer to each other than they may be, at targets of the actuators, with their
-        distances in m."""
+        """Pairs of bodies with less than their clearance at targets of the actuators, with their distances in m."""
         mj, data = self.model.mj, self.data
         set_targets(self.model, data, self.start, target)
         if self.held:
@@ -67,28 +66,28 @@ class Clearance:
             turned = np.zeros(4)
             mujoco.mju_mat2Quat(turned, np.ascontiguousarray(rotation @ self.grip[1]).ravel())
             data.qpos[at : at + 3], data.qpos[at + 3 : at + 7] = place + rotation @ self.grip[0], turned
-        find_contacts(self.model, data, np.maximum(mj.geom_margin, self.margins))
+        find_contacts(self.model, data, self.margins)
         found = {bodies: gap for bodies, gap in own_contacts(self.model, data) if bodies not in together(self.model)}
-        geoms = data.contact.geom
-        is_met = (self.mine[geoms].sum(axis=1) == 1) & ~(geoms == self.model.floor).any(axis=1)
-        for at in np.flatnonzero(is_met):
-            bodies = tuple(mj.geom_bodyid[geoms[at]])
-            found[bodies] = min(found.get(bodies, np.inf), data.contact.dist[at])
+        one, other = data.contact.geom.T
+        is_met = (self.mine[one] != self.mine[other]) & (one != self.model.floor) & (other != self.model.floor)
+        for bodies, gap in zip(mj.geom_bodyid[data.contact.geom[is_met]].tolist(), data.contact.dist[is_met].tolist()):
+            bodies = tuple(bodies)
+            found[bodies] = min(found.get(bodies, np.inf), gap)
         return found
 
     def touches_itself(self, target):
-        """True if parts of the robot are too near to each other at targets, and nearer than at the start."""
+        """True if parts of the robot touch at targets that do not at the start."""
         before = self.own(self.start[self.model.control_qpos])
         return any(gap < before.get(bodies, OWN) - 1e-4 for bodies, gap in self.own(target).items())
 
     def own(self, target):
-        """Pairs of bodies of the robot that are too near to each other at targets, with their distances in m."""
+        """Pairs of bodies of the robot that touch at targets, with their distances in m."""
         owner = self.model.owner
         return {bodies: gap for bodies, gap in self.near(target).items() if all(owner[one] == "robot" for one in bodies)}
 
     def is_free(self, start, corner, targets):
-        """True if at all targets nothing is too near, or at least no nearer than at the start or the corner
-        anyway."""
+        """True if all bodies keep their clearance at all targets. Those that have less at the start or at the corner may
+        be as near as there."""
         permitted = self.near(start)
         for bodies, gap in self.near(corner).items():
             permitted[bodies] = min(permitted.get(bodies, np.inf), gap)
@@ -97,26 +96,28 @@ class Clearance:
 
 
 def find_contacts(model, data, margins):
-    """Finds the contacts of a configuration within margins. In the world the robot does not touch itself; here it
-    does."""
+    """Finds the contacts of a configuration within margins: also those between parts of the robot, which the world leaves
+    out."""
     mj, (own, bodies), flags = model.mj, parts(model), model.mj.opt.enableflags
     fields = mj.geom_margin, mj.geom_conaffinity, mj.body_conaffinity
     before = [field.copy() for field in fields]
     mj.geom_margin[:], mj.opt.enableflags = margins, 0
     mj.geom_conaffinity[own] |= mj.geom_contype[own]
     mj.body_conaffinity[bodies] |= mj.body_contype[bodies]
-    mujoco.mj_fwdPosition(mj, data)
+    mujoco.mj_kinematics(mj, data)
+    mujoco.mj_collision(mj, data)
     for field, was in zip(fields, before):
         field[:] = was
     mj.opt.enableflags = flags
 
 
 def own_contacts(model, data):
-    """Pairs of bodies of the robot that are too near to each other, with their distances in m. Fingers may close."""
-    geoms, (own, _) = data.contact.geom, parts(model)
-    is_own = np.isin(geoms, own).all(axis=1) & ~np.isin(geoms, list(model.hand_geoms)).all(axis=1)
-    for at in np.flatnonzero(is_own & (data.contact.dist < OWN)):
-        yield tuple(sorted(int(body) for body in model.mj.geom_bodyid[geoms[at]])), data.contact.dist[at]
+    """Pairs of bodies of the robot that touch, with their distances in m. Fingers may close."""
+    one, other = data.contact.geom.T
+    own, hand = masks(model)
+    is_own = own[one] & own[other] & ~(hand[one] & hand[other]) & (data.contact.dist < OWN)
+    for bodies, gap in zip(model.mj.geom_bodyid[data.contact.geom[is_own]].tolist(), data.contact.dist[is_own].tolist()):
+        yield tuple(sorted(bodies)), gap
 
 
 @functools.lru_cache(maxsize=4)
@@ -127,8 +128,15 @@ def parts(model):
 
 
 @functools.lru_cache(maxsize=4)
+def masks(model):
+    """Masks of the geoms of the robot, and of its hand."""
+    geoms = np.arange(model.mj.ngeom)
+    return np.isin(geoms, parts(model)[0]), np.isin(geoms, list(model.hand_geoms))
+
+
+@functools.lru_cache(maxsize=4)
 def together(model):
-    """Pairs of bodies of the robot that touch at the start or at home: their shapes overlap there, not the parts."""
+    """Pairs of bodies of the robot whose shapes overlap at the start or at home, where the real parts do not touch."""
     data, found = mujoco.MjData(model.mj), set()
     for target in (model.mj.key_ctrl[model.mj.key("start").id], model.posture("home"), model.posture("start")):
         if target is not None:

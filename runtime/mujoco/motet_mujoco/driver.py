@@ -24,8 +24,8 @@ from .world import World
 REFUSED, METHOD_NOT_FOUND, INVALID_PARAMS, INTERNAL = 1, -32601, -32602, -32603
 # After so many seconds without a word a host on a wall clock has vanished.
 SILENCE = 5.0
-# Seconds between two reports `moved`.
-MOVED_EVERY = 0.05
+# Seconds between two reports `moved`, and between two answers to what is watched.
+MOVED_EVERY, TOLD_EVERY = 0.05, 0.02
 # Seconds in which things come to rest before a run.
 SETTLES = 0.3
 # Seconds between two looks for what is watched.
@@ -102,7 +102,7 @@ class Driver:
         self.eyes = Eyes(self.world, self.beliefs, self.oracle, rates["camera"], chance, self.detector)
         planner = Planner(self.command, self.model.source) if self.command else None
         self.tasks = Tasks(self.world, self.observer, self.beliefs, planner, self.eyes, self.options)
-        self.goals, self.watched, self.moved_at, self.looked_at = {}, [], -1.0, -1.0
+        self.goals, self.watched, self.moved_at, self.looked_at, self.told_at = {}, [], -1.0, -1.0, -1.0
         self.gripped, self.faults = (None, None), Faults(self.options.faults)
         self.tasks.answered = lambda: self.faults.answered(self.world.now - self.offset)
         self.hold_what_is_held()
@@ -299,16 +299,19 @@ class Driver:
 
     def advance(self, params):
         """Lets the world go on until the first report, or until a time."""
-        until, reports = float(params["until"]) + self.offset, []
-        say, self.say = self.say, reports.append
+        until, is_over, say = float(params["until"]) + self.offset, False, self.say
+
+        def noted(message):
+            nonlocal is_over
+            is_over |= message["method"] != "moved"
+            say(message)
+
+        self.say = noted
         try:
-            while not any(one["method"] != "moved" for one in reports) and self.world.now + self.world.tick <= until + 1e-9:
+            while not is_over and self.world.now + self.world.tick <= until + 1e-9:
                 self.tick()
         finally:
             self.say = say
-        for report in reports:
-            self.say(report)
-        is_over = any(one["method"] != "moved" for one in reports)
         return {"now": round((self.world.now if is_over else max(self.world.now, until)) - self.offset, 6)}
 
     METHODS = ("hello start update cancel hold proceed safe_stop observe watch unwatch status ping look detections "
@@ -319,8 +322,7 @@ class Driver:
     def tick(self):
         """Goes on by a tick: tasks aim, people walk, the world moves, and what changed is told."""
         self.tasks.rate[:] = self.tasks.change[:] = 0.0
-        for number in sorted(self.goals):
-            goal = self.goals[number]
+        for number, goal in sorted(self.goals.items()):
             if goal.state != "running" or goal.is_held:
                 continue
             outcome = None
@@ -354,11 +356,13 @@ class Driver:
 
     def tell(self):
         """Reports answers that changed, and where everything is."""
-        for at, (query, before) in enumerate(self.watched):
-            now = self.known(query)
-            if now != before and not alike(now, before):
-                self.watched[at] = (query, now)
-                self.report("observed", {"query": query, "answer": now})
+        if self.world.now >= self.told_at + TOLD_EVERY:
+            self.told_at = self.world.now
+            for at, (query, before) in enumerate(self.watched):
+                now = self.known(query)
+                if now != before and not alike(now, before):
+                    self.watched[at] = (query, now)
+                    self.report("observed", {"query": query, "answer": now})
         if self.protocol >= 2 and self.world.now - self.moved_at >= MOVED_EVERY:
             self.moved_at = self.world.now
             self.report("moved", self.where())
@@ -366,15 +370,14 @@ class Driver:
     def where(self):
         """Where everything is, as the report `moved` says it."""
         world, model = self.world, self.model
-        values = world.data.qpos[model.control_qpos]
+        values = world.data.qpos[model.control_qpos].round(5).tolist()
         base = ("base/x", "base/y", "base/yaw")
-        joints = {joint: round(float(values[at]), 5) for joint, at in model.controls.items() if joint not in base}
-        things = []
-        for thing in model.free:
-            position, (w, x, y, z) = world.pose(thing)
-            things.append({"id": thing, "xyz": [round(float(part), 4) for part in position],
-                           "quaternion": [round(float(part), 5) for part in (x, y, z, w)]})
-        base = [round(float(part), 5) for part in world.base()]
+        joints = {joint: values[at] for joint, at in model.controls.items() if joint not in base}
+        bodies = [model.body_of[thing] for thing in model.free]
+        places, turns = world.data.xpos[bodies].round(4).tolist(), world.data.xquat[bodies].round(5).tolist()
+        things = [{"id": thing, "xyz": place, "quaternion": [x, y, z, w]}
+                  for thing, place, (w, x, y, z) in zip(model.free, places, turns)]
+        base = world.base().round(5).tolist()
         return {"at": round(world.now - self.offset, 4), "base": base, "joints": joints, "things": things}
 
     def freeze(self):
@@ -401,7 +404,7 @@ class Driver:
 
     def end(self, number, outcome):
         self.goals[number].task.close()
-        self.goals[number].state = {"ended": outcome}
+        self.goals[number].state, self.told_at = {"ended": outcome}, -1.0
         if outcome == "interrupted":
             self.freeze()
         self.tell_grip()
@@ -517,11 +520,19 @@ def alike(now, before):
 
 def serve(driver, read_fd, write, speed=1.0):
     """Serves a host until it goes. Without a clock of the driver, the world follows the wall clock."""
-    driver.say = lambda message: write((json.dumps(message) + "\n").encode())
+    said = []
+    driver.say = lambda message: said.append(json.dumps(message).encode() + b"\n")
     selector = selectors.DefaultSelector()
     selector.register(read_fd, selectors.EVENT_READ)
     rest, heard, began = b"", time.monotonic(), time.monotonic()
     offset = driver.world.now
+
+    def send():
+        # At once, so that the host wakes up once for all of them.
+        if said:
+            write(b"".join(said))
+            said.clear()
+
     while True:
         if driver.has_clock or not driver.is_greeted:
             # Until the host has said whose the clock is, nothing moves.
@@ -536,6 +547,7 @@ def serve(driver, read_fd, write, speed=1.0):
             while offset + (time.monotonic() - began) * speed - driver.world.now >= driver.world.tick and ticks < 50:
                 driver.tick()
                 ticks += 1
+            send()
             if time.monotonic() - heard > SILENCE:
                 return
         if not ready:
@@ -545,9 +557,10 @@ def serve(driver, read_fd, write, speed=1.0):
         if not data:
             return
         *lines, rest = (rest + data).split(b"\n")
-        for line in lines:
-            if line.strip() and not driver.take(line):
-                return
+        is_on = all(driver.take(line) for line in lines if line.strip())
+        send()
+        if not is_on:
+            return
 
 
 def stdio(driver, speed):

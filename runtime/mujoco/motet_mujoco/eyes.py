@@ -59,7 +59,7 @@ class Eyes:
         self.command, self.process = command, None
         self.last, self.at, self.sure, self.pictures = [], -1.0, set(), []
         # What the last pictures were taken of, what the detector found in them, and how far doors are open in them.
-        self.viewed, self.found, self.shares = None, [], {}
+        self.viewed, self.found, self.shares, self.beyond = None, [], {}, None
 
     def look(self, name=None):
         """A picture of a camera; of the first without a name."""
@@ -237,19 +237,23 @@ class Eyes:
                    for body in (container, container + "/door")}
         leaf, data, room = at_body[container + "/door"], mujoco.MjData(model.mj), self.beliefs.room()
         middle, far = room.xpos[model.body_of[container]], sweep(model, container)
-        points = [one[np.linalg.norm(one - middle, axis=1) <= far]
-                  for one in (picture.samples(GRID) for picture in self.pictures)]
-        if sum(map(len, points)) < ENOUGH:
+        if self.beyond is None:
+            # What is seen of the robot itself with what it holds is no leaf.
+            self.beyond = np.concatenate([np.zeros((0, 3)), *(picture.samples(GRID) for picture in self.pictures)])
+            for solid in self.own():
+                self.beyond = self.beyond[~belongs(self.beyond, solid)]
+        points = self.beyond[np.linalg.norm(self.beyond - middle, axis=1) <= far]
+        if len(points) < ENOUGH:
             return None
-        # What is seen of the frame and of the robot itself with what it holds is no leaf.
-        for solid in [*self.solids(at_body[container]), *self.own()]:
-            points = [one[~belongs(one, solid)] for one in points]
+        # Nor is the frame.
+        for solid in self.solids(at_body[container]):
+            points = points[~belongs(points, solid)]
         data.qpos[:], data.mocap_pos[:] = room.qpos, room.mocap_pos
 
         def on_leaf(share, near):
             data.qpos[joint] = opened * share
             mujoco.mj_kinematics(model.mj, data)
-            return sum(np.count_nonzero(within(model.mj, data, leaf, one, near)) for one in points)
+            return np.count_nonzero(within(model.mj, data, leaf, points, near))
 
         counts = [on_leaf(step / STEPS, LEAF) for step in range(STEPS + 1)]
         best = int(np.argmax(counts))
@@ -294,7 +298,7 @@ class Eyes:
             self.beliefs.scan(person)
         if not self.is_same(self.view()[:1]):
             self.pictures, self.shares = [self.camera.look(name) for name in self.world.model.cameras], {}
-            self.viewed = None
+            self.viewed = self.beyond = None
         self.see_doors()
         view = self.view()
         if not self.is_same(view):

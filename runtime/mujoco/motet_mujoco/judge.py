@@ -34,6 +34,8 @@ DEFAULT = ["kitchen", "lab", "living_room"]
 AIMS = {"reach": {"hsr": 0.95, "anymal_z1": 0.9, "panda": 0.95}, "go_to": 1.0, "pull": 0.9, "push": 0.9, "put": 0.9}
 # Seconds for which a thing has to be held without support, and how far it may slip in the hand in m.
 HOLDS, SLIPS = 1.5, 0.03
+# Seconds in which the robot comes to rest at the end of a path.
+RESTS = 0.12
 
 
 # Distance in m from which a thing is seen before it is grasped.
@@ -77,8 +79,8 @@ def follow(world, points, share, until=lambda: False):
         along = np.maximum(along, tip_error(world, path.at(then)[0]))
         if until():
             return np.stack([along, along])
-    for _ in range(30):
-        world.step(points[-1])
+    world.step(points[-1])
+    world.wait(RESTS)
     end = tip_error(world, world.target)
     return np.stack([np.maximum(along, end), end])
 
@@ -90,29 +92,6 @@ def tip_error(world, target):
     place, turn = frame_at(world, target)
     tip = world.tip()
     return np.array([np.linalg.norm(place - tip[0]), np.linalg.norm(rotation_vector(turn @ tip[1].T))])
-
-
-def close(world, seconds=1.0):
-    """Closes the hand with all its force."""
-    target = world.target.copy()
-    start = {at: world.data.qpos[world.model.control_qpos[at]] for at in world.model.grips}
-    ticks = int(0.5 / world.tick)
-    for tick in range(ticks):
-        for at, (_, closed) in world.model.grips.items():
-            target[at] = start[at] + (closed - start[at]) * (tick + 1) / ticks
-        world.step(target)
-    world.wait(seconds - 0.5)
-
-
-def open_hand(world, seconds=0.8):
-    """Opens the hand from where its fingers are."""
-    target = world.target.copy()
-    start = {at: world.data.qpos[world.model.control_qpos[at]] for at in world.model.grips}
-    ticks = int(seconds / world.tick)
-    for tick in range(ticks):
-        for at, (opened, _) in world.model.grips.items():
-            target[at] = start[at] + (opened - start[at]) * min(2.0 * (tick + 1) / ticks, 1.0)
-        world.step(target)
 
 
 def draw_back(world, far=0.08, share=0.5):
@@ -137,7 +116,7 @@ def reach(world, arguments, points, _witness, share):
     moved = np.linalg.norm(world.pose(thing)[0] - before)
     if feels and not world.feels_touch():
         follow(world, [points[-1], *feels], share * FEELS_AT, until=world.feels_touch)
-    close(world)
+    world.move_fingers(True, 1.0)
     if not world.holds(thing):
         return False, "no grip from two sides%s" % (", pushed %.0f mm" % (moved * 1e3) if moved > 0.005 else ""), error
     support_gone(world, thing)
@@ -176,9 +155,9 @@ def pull(world, arguments, points, witness, share):
     error = np.zeros((2, 2))
     for phase, points in phases(points, world.model.grips):
         if phase == "grip":
-            close(world)
+            world.move_fingers(True, 1.0)
         elif phase == "release":
-            open_hand(world)
+            world.move_fingers(False, 0.8)
         else:
             # A door is drawn slowly.
             found = follow(world, points, share * (0.5 if phase == "draw" else 1.0))
@@ -209,7 +188,7 @@ def put(world, arguments, points, witness, share):
         if phase == "release" or not any(other == "release" for other, _ in parts):
             if not world.holds(thing):
                 return False, "lost on the way", error
-            open_hand(world)
+            world.move_fingers(False, 0.8)
             if phase != "release":
                 draw_back(world)
         if phase == "move":

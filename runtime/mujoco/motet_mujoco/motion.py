@@ -123,10 +123,14 @@ class Stroke:
         """How far the targets have moved since the start, their rates and their accelerations."""
         if time >= self.span or self.passed[-1] < 1e-9:
             return self.points[-1] - self.points[0], *np.zeros((2, len(self.points[0])))
-        done, speed, change = (part * self.passed[-1] for part in trapezoid(time, self.span, self.ramp))
-        leg = min(bisect_right(self.passed, done) - 1, len(self.cruise) - 1)
+        share, speed, change = trapezoid(time, self.span, self.ramp)
+        whole = self.passed[-1]
+        leg = min(bisect_right(self.passed, share * whole) - 1, len(self.cruise) - 1)
         way = (self.points[leg + 1] - self.points[leg]) / max(self.cruise[leg], 1e-9)
-        return self.points[leg] - self.points[0] + way * (done - self.passed[leg]), way * speed, way * change
+        done = way * (share * whole - self.passed[leg])
+        if leg > 0:
+            done += self.points[leg] - self.points[0]
+        return done, way * (speed * whole), way * (change * whole)
 
     def reversed(self):
         """The same stroke from its end to its start."""

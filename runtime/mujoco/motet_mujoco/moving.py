@@ -18,17 +18,19 @@ from .trail import Trail
 BEGINS = 0.05
 # Error in m or rad of a servo above which something is in the way.
 BLOCKED = 0.12
+# Seconds for which the robot pushes on against something, and after which a thing that the fingers do not feel is lost.
+PUSHES, LOSES = 0.1, 0.05
 # Distances in m that the base draws back where the arm has no room to fold.
 RETREATS = (0.15, 0.3, 0.45)
-# Distances in m, beyond the reach of the robot, of the base from what something hides: most often it is in or on
-# something larger.
+# Distances in m of the base from a hidden spot, beyond the reach of the robot. The spot is most often in or on something
+# larger.
 AROUND = (0.2, 0.1, -0.05)
-# Turns in rad about it, from the direction of the robot.
+# Directions in rad in which places around a spot are tried, from the direction of the robot.
 TURNS = (0.0, 0.5, -0.5, 1.0, -1.0, 1.5, -1.5, 2.0, -2.0)
-# Turns between them: few places may have a short way to put something down from.
+# Directions between them, for a robot that is to put something down: from few places it has a short way for that.
 BETWEEN = (0.25, -0.25, 0.75, -0.75, 1.25, -1.25, 1.75, -1.75)
-# Way in m of the base, beyond a straight drive to a place, up to which that place is not compared with others.
-ASIDE = 1.0
+# Detour in m of the base, beyond a straight drive to a place, that is short enough: no more places are tried then.
+DETOUR = 1.0
 # Heights in m from which the hand may let go of a thing.
 LETS_GO = (0.01, 0.02)
 # Heights in m by which the hand may go back above the way that it came.
@@ -69,7 +71,7 @@ class Mover:
         self.planner, self.options = planner, options
         self.goal = world.target.copy()  # targets that the tasks aim at
         self.rate, self.change = np.zeros_like(self.goal), np.zeros_like(self.goal)
-        self.lost = 0
+        self.lost = 0.0
         # The way that the robot came, and whether a motion ended on its way.
         self.trail, self.is_adrift = Trail(world.model.grips), False
 
@@ -91,7 +93,7 @@ class Mover:
         mask = np.any(np.abs(np.array(points) - points[0]) > 1e-9, axis=0)
         if not mask.any():
             return
-        elapsed, behind = 0.0, 0
+        elapsed, behind = 0.0, 0.0
         led = np.array([at for at in np.flatnonzero(mask) if at not in model.grips], dtype=int)
         while elapsed < path.end:
             self.aim(path, elapsed, mask)
@@ -99,8 +101,8 @@ class Mover:
             yield
             self.trail.add(self.goal)
             off = np.abs(world.data.qpos[model.control_qpos[led]] - self.goal[led])
-            behind = behind + 1 if off.max(initial=0.0) > BLOCKED else 0
-            if behind > 25:
+            behind = behind + world.tick if off.max(initial=0.0) > BLOCKED else 0.0
+            if behind > PUSHES:
                 met = self.room.bumped() or what or "something"
                 # What pushes on would push for ever.
                 self.goal[mask] = world.data.qpos[model.control_qpos][mask]
@@ -131,17 +133,18 @@ class Mover:
     def grip(self, closed, seconds):
         """Closes or opens the hand over a time, from where its fingers are."""
         world, model = self.world, self.world.model
-        start = {at: world.data.qpos[model.control_qpos[at]] for at in model.grips}
-        ticks = int(seconds / world.tick)
-        for tick in range(ticks):
-            for at, (opened, shut) in model.grips.items():
-                to = shut if closed else opened
-                self.goal[at] = start[at] + (to - start[at]) * min(2.0 * (tick + 1) / ticks, 1.0)
+        start, elapsed = world.data.qpos[model.control_qpos], 0.0
+        while elapsed < seconds - 1e-9:
+            elapsed += world.tick
+            for at, to in world.fingers(closed, start, 2.0 * elapsed / seconds).items():
+                self.goal[at] = to
             yield
 
     def pause(self, seconds):
         """Waits."""
-        for _ in range(max(1, int(round(seconds / self.world.tick)))):
+        elapsed = 0.0
+        while elapsed < seconds - 1e-9:
+            elapsed += self.world.tick
             yield
 
     def straight(self, way, motion, share=0.8):
@@ -315,11 +318,11 @@ class Mover:
         """A check that fails where a thing is lost from the hand; None without a thing."""
         if thing is None:
             return None
-        self.lost = 0
+        self.lost = 0.0
 
         def watch():
-            self.lost = 0 if self.room.holds(thing) else self.lost + 1
-            if self.lost > 12:
+            self.lost = 0.0 if self.room.holds(thing) else self.lost + self.world.tick
+            if self.lost > LOSES:
                 self.beliefs.forget(thing)
                 raise Failed("slipped", "%s %s" % (thing, how))
 
@@ -393,7 +396,7 @@ class Mover:
         def way(stand):
             return self.way_to_put(held[0], container, stand) if held else 0.0
 
-        is_here = self.observer.serves(container) and way(self.world.base()) <= ASIDE
+        is_here = self.observer.serves(container) and way(self.world.base()) <= DETOUR
         if is_here and self.planner.ask(self.supposing(INSIDE, place), query)[0] is not None:
             return True
         came = yield from self.around(query, INSIDE, place, place, motion, motion.until - SPARE, way)
@@ -424,10 +427,10 @@ class Mover:
         return witness, None if witness is not None else why
 
     def around(self, query, one, place, spot, motion, until=np.inf, way=None):
-        """Moves the base to where a motion is feasible, at a place near a spot, the nearest directions first: one to
-        which the drive is about straight and from which what comes next has a short way, as `way` says, else the one
-        with the shortest way in all. `place` is where an entity is supposed to be. True if there is such a place to
-        which it comes by a time."""
+        """Drives to a place from which a motion is feasible while an entity is supposed to be at `place`. The places lie
+        around a spot; those on the side of the robot are tried first. The first one without a long detour is taken,
+        else the one with the shortest way; `way` gives the way in m of what comes next from a place. True if the base
+        has come to such a place by a time."""
         model, (x, y, yaw) = self.world.model, self.world.base()
         towards, best, least = float(np.arctan2(y - spot[1], x - spot[0])), None, np.inf
         offs, turns = AROUND if model.drives else (), (TURNS, BETWEEN) if way else (TURNS,)
@@ -451,7 +454,7 @@ class Mover:
             cost = driven(witness) + then
             if best is None or cost < least:
                 best, least = path, cost
-            if cost <= straight + ASIDE:
+            if cost <= straight + DETOUR:
                 break
         if best is None or self.world.now + best.end > until:
             return False

@@ -28,6 +28,8 @@ class Own:
         """Counts the way that was driven."""
         base = world.base()
         x, y, yaw = (base - self.last).tolist()
+        if x == y == yaw == 0.0:
+            return
         self.driven += math.hypot(x, y)
         if max(abs(x), abs(y), abs(yaw)) > 1e-4:
             self.unmoved = False

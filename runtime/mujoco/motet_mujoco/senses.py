@@ -8,8 +8,8 @@ import numpy as np
 from .model import turned
 from .sight import is_visible
 
-# Ticks for which the fingers have to be closed on nothing before the hand counts as empty.
-EMPTY = 12
+# Seconds for which the fingers have to be closed on nothing before the hand counts as empty.
+EMPTY = 0.05
 # Height in m by which the hand has risen since a grasp once it bears the thing alone.
 RAISED = 0.01
 # Distance in m of a bump from where something is believed to be up to which that is what was met, and from the middle
@@ -21,13 +21,14 @@ class Senses:
     """A room by the senses of the robot."""
 
     def __init__(self, world, beliefs):
-        self.world, self.beliefs, self.empty = world, beliefs, 0
+        self.world, self.beliefs, self.gripped = world, beliefs, 0.0
 
     def tick(self):
         """Notes what the joints of the hand feel: fingers that close on nothing have lost what they held."""
-        held = self.beliefs.hand
-        self.empty = 0 if held is None or self.world.is_gripping() else self.empty + 1
-        if self.empty > EMPTY:
+        held, now = self.beliefs.hand, self.world.now
+        if held is None or self.world.is_gripping():
+            self.gripped = now
+        elif now - self.gripped > EMPTY:
             self.beliefs.forget(held)
 
     def held(self):

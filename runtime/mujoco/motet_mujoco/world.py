@@ -10,8 +10,10 @@ from . import sight
 from .model import name
 from .motion import Reacher, near_turn
 
-# Steps of the simulation for each target of the actuators.
-STEPS = 2
+# Time in s between two targets of the actuators, and while the fingers move, faster than so many m/s or rad/s.
+TICK, GRIPS, STILL = 0.008, 0.004, 0.01
+# Length in s of a step of the simulation where something touches something or falls, and elsewhere.
+FINE, COARSE = 0.002, 0.004
 # Force in N from which a part presses.
 PRESSES = 0.2
 # Share of the travel from which a drawer or a door is open.
@@ -35,10 +37,11 @@ class World:
     def __init__(self, model):
         self.model = model
         self.data = mujoco.MjData(model.mj)
-        self.tick = STEPS * model.mj.opt.timestep  # time in s between two targets
-        self.grips = list(model.grips)
+        self.tick = TICK  # seconds to the next target
+        self.grips, self.still = list(model.grips), np.zeros(model.mj.nu)
+        self.fingers_qvel = model.control_qvel[self.grips]
         self.reacher = Reacher(model)
-        self.integral = np.zeros(model.mj.nu)
+        self.integral, self.force = np.zeros(model.mj.nu), np.zeros(model.mj.nv)
         # Things in the hands of people, and things by the names that the host gave them.
         self.carried_by, self.called = {}, {}
         # Contacts of what sleeps too, found when asked for.
@@ -50,7 +53,7 @@ class World:
         """Back to the start of the scene."""
         mujoco.mj_resetDataKeyframe(self.model.mj, self.data, self.model.mj.key("start").id)
         self.target = np.array(self.data.ctrl)
-        self.integral[:] = 0.0
+        self.integral[:], self.tick = 0.0, TICK
         mujoco.mj_forward(self.model.mj, self.data)
 
     @property
@@ -64,25 +67,38 @@ class World:
         model, data = self.model, self.data
         if target is not None:
             self.target = np.array(target, dtype=float)
-        rate = np.zeros(model.mj.nu) if rate is None else rate
+        rate = self.still if rate is None else rate
         # A slow integral holds against weight. It compares the target with the joints at the same time.
         off = self.target - rate * self.tick / 2.0 - data.qpos[model.control_qpos]
         self.integral = np.minimum(np.maximum(self.integral + 4.0 * self.tick * off, -0.02), 0.02)
         self.integral[self.grips] = 0.0
         # The damping of a position servo brakes: led by as much as that, it follows a moving target without a
-        # lag. The steps of a tick find the joints half a step before its middle, on average.
-        data.ctrl[:] = self.target + self.integral + (model.lag - model.mj.opt.timestep / 2.0) * rate
+        # lag. A step finds the joints half a step before its middle.
+        step = COARSE if self.is_free() else FINE
+        control = self.target + self.integral + (model.lag - step / 2.0) * rate
         if change is not None:
-            data.ctrl[:] += self.feedforward(change) / model.stiffness
+            control += self.feedforward(change) / model.stiffness
+            rate = rate + model.lag * change
         for thing, (person, offset) in self.carried_by.items():
             self.place(thing, data.mocap_pos[model.people[person]] + offset)
-        mujoco.mj_step(model.mj, data, STEPS)
+        model.mj.opt.timestep = step
+        control += (step - self.tick) / 2.0 * rate
+        for _ in range(round(self.tick / step)):
+            data.ctrl[:] = control
+            mujoco.mj_step(model.mj, data)
+            control += step * rate
+        self.tick = TICK if np.abs(data.qvel[self.fingers_qvel]).max(initial=0.0) < STILL else GRIPS
+
+    def is_free(self):
+        """True if nothing but the robot and what people carry is awake, and the robot touches nothing and does not move
+        its fingers."""
+        return self.data.ncon == 0 and self.tick == TICK and self.data.ntree_awake <= 1 + len(self.carried_by)
 
     def feedforward(self, change):
         """Forces with which the actuators accelerate as they should: by the dynamics of the robot itself,
         without what it touches or holds. Its weight is compensated."""
         model, data = self.model, self.data
-        force = np.zeros(model.mj.nv)
+        force = self.force
         mujoco.mj_mulM(model.mj, data, force, model.transmission @ change)
         return model.transmission.T @ (force + data.qfrc_bias - data.qfrc_gravcomp)
 
@@ -95,6 +111,19 @@ class World:
                 return False
         self.step(path.points[-1])
         return True
+
+    def fingers(self, closed, start, share):
+        """Targets of the fingers at a share of their way from a start to the closed hand, or to the open one."""
+        return {at: start[at] + (ends[int(closed)] - start[at]) * min(share, 1.0) for at, ends in self.model.grips.items()}
+
+    def move_fingers(self, closed, seconds):
+        """Closes or opens the hand over the first half of a time."""
+        target, begun = self.target.copy(), self.now
+        start = self.data.qpos[self.model.control_qpos]
+        while self.now - begun < seconds - 1e-9:
+            for at, to in self.fingers(closed, start, 2.0 * (self.now + self.tick - begun) / seconds).items():
+                target[at] = to
+            self.step(target)
 
     def wait(self, seconds):
         """Holds still for a time."""
@@ -162,12 +191,7 @@ class World:
         """Closes the fingers around a thing that has no weight meanwhile."""
         weightless, body = self.model.mj.body_gravcomp, self.model.body_of[thing]
         before, weightless[body] = float(weightless[body]), 1.0
-        ticks, target = int(1.0 / self.tick), self.target.copy()
-        start = {at: target[at] for at in self.model.grips}
-        for tick in range(ticks):
-            for at, (_, closed) in self.model.grips.items():
-                target[at] = start[at] + (closed - start[at]) * min(2.0 * (tick + 1) / ticks, 1.0)
-            self.step(target)
+        self.move_fingers(True, 1.0)
         weightless[body] = before
         self.wait(0.3)
 
@@ -271,13 +295,12 @@ class World:
 
     def is_gripping(self):
         """True if the fingers, told to close, meet something before their end: by the joints of the hand alone."""
-        grips, qpos = self.model.grips, self.data.qpos[self.model.control_qpos]
-
-        def meets(at, opened, closed):
-            span = abs(closed - opened)
-            return abs(self.target[at] - closed) < CLOSED * span < abs(qpos[at] - closed)
-
-        return any(meets(at, *ends) for at, ends in grips.items())
+        qpos, where = self.data.qpos, self.model.control_qpos
+        for at, (opened, closed) in self.model.grips.items():
+            least = CLOSED * abs(closed - opened)
+            if abs(self.target[at] - closed) < least < abs(qpos[where[at]] - closed):
+                return True
+        return False
 
     def is_touched(self, thing):
         """True if a part of the hand touches a thing."""

@@ -9,7 +9,7 @@ from host import Host, entity, fact, placed, text
 from motet_mujoco.beliefs import Beliefs
 from motet_mujoco.camera import NoGraphics
 from motet_mujoco.driver import Driver, Options
-from motet_mujoco.judge import SCENES, carry_out, close, follow, verdicts
+from motet_mujoco.judge import SCENES, carry_out, follow, verdicts
 from motet_mujoco.model import load
 from motet_mujoco.world import World
 
@@ -227,7 +227,7 @@ def test_finger_joints_notice_a_lost_thing(behind, motet):
     world, yes, no = behind.world, {"truth": True}, {"truth": False}
     [(_, witness)] = verdicts(motet, "hsr", "kitchen", "reach(mug_1)")
     follow(world, world.targets(witness["path"]), 1.0)
-    close(world)
+    world.move_fingers(True, 1.0)
     behind.tasks.goal[:] = world.target
     behind.beliefs.holds("mug_1")
     assert truths(behind, "holding", "mug_1") == (yes, yes)

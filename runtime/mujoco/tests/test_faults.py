@@ -1,11 +1,13 @@
 """A file of faults in physics: calls that fail, changes of the room, answers, and files that are not of this form."""
 
 import json
+import os
 import subprocess
 import sys
 
 import pytest
 from host import Host, entity, text
+from motet_mujoco.faults import answers, read
 
 
 @pytest.fixture
@@ -106,3 +108,15 @@ def test_a_file_of_another_form_is_an_error(motet, tmp_path, flag, content, why)
     words = [sys.executable, "-m", "motet_mujoco", "--robot", "hsr", "--scene", "kitchen", "--motet", motet, flag]
     done = subprocess.run([*words, str(path)], capture_output=True, text=True, check=False)
     assert done.returncode == 2 and why in done.stderr and "wrong.json" in done.stderr
+
+
+@pytest.mark.parametrize("read_file, content", [(read, {"calls": []}), (answers, ["the red one", None])])
+def test_files_may_be_pipes(read_file, content):
+    """As a shell makes them of `<(…)`: they can be read once."""
+    reader, writer = os.pipe()
+    os.write(writer, json.dumps(content).encode())
+    os.close(writer)
+    try:
+        assert read_file("/dev/fd/%d" % reader) == content
+    finally:
+        os.close(reader)

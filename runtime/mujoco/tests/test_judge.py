@@ -68,7 +68,7 @@ def test_held_thing_is_carried(motet):
     world = World(load("hsr", "kitchen", motet))
     assert judge.carry_out(world, query, witness)[0]
     assert calibrate.carried(world, "apple")
-    judge.open_hand(world)
+    world.move_fingers(False, 0.8)
     assert not calibrate.carried(world, "apple")
 
 

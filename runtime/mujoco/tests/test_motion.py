@@ -14,7 +14,7 @@ from motet_mujoco.motion import HELD, Path, gentle, timed, witnessed
 from motet_mujoco.moving import Failed, Motion, Mover
 from motet_mujoco.observation import Observer
 from motet_mujoco.planner import Planner
-from motet_mujoco.world import World
+from motet_mujoco.world import GRIPS, TICK, World
 
 TABLE = SCENES["panda"][0]
 
@@ -286,3 +286,23 @@ def test_the_base_stays_near_its_way_in_a_corner(hsr, turn):
     way = np.concatenate(legs)
     off = [np.linalg.norm(way - path.at(time)[0][:2], axis=1).min() for time in np.arange(0.0, path.end, 0.02)]
     assert path.end < stopping.end and max(off) <= 0.0035
+
+
+def test_steps_are_long_while_nothing_happens(motet):
+    """Where a thing falls they are short, and while fingers move targets are set more often."""
+    world = World(load("hsr", "kitchen", motet))
+    world.wait(0.5)
+    assert world.is_free() and world.tick == TICK
+    world.place("mug_1", world.pose("mug_1")[0] + [0.0, 0.0, 0.05])
+    world.step()
+    world.step()
+    assert not world.is_free()
+    world.wait(1.0)
+    assert world.is_free(), "it sleeps"
+    target, ticks = world.target.copy(), set()
+    for at, ends in world.model.grips.items():
+        target[at] = sum(ends) / 2.0
+    for _ in range(20):
+        world.step(target)
+        ticks.add(world.tick)
+    assert GRIPS in ticks

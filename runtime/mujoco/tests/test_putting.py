@@ -8,7 +8,7 @@ from motet_mujoco.driver import Driver, Options
 from motet_mujoco.judge import SCENES, carry_out, verdicts
 from motet_mujoco.model import load
 from motet_mujoco.motion import CHECKED, timed
-from motet_mujoco.moving import ASIDE, Motion
+from motet_mujoco.moving import DETOUR, Motion
 from motet_mujoco.world import World
 
 
@@ -74,7 +74,7 @@ def test_a_place_with_a_short_way_comes_first(driver):
     """Of the places from which the inside shows, the base drives to one with a short way left."""
     tasks = driver.tasks
     tasks.planner.ask, tasks.planner.plan = (lambda *_: ("shows", None)), drives(0.0)
-    costs = iter([np.inf, 3.0, 5.0, 0.5 * ASIDE, 0.0])
+    costs = iter([np.inf, 3.0, 5.0, 0.5 * DETOUR, 0.0])
     tried = []
 
     def way(stand):
@@ -86,7 +86,7 @@ def test_a_place_with_a_short_way_comes_first(driver):
     search = tasks.around("look(inside)", "inside", spot, spot, Motion(None), np.inf, way)
     for _ in search:
         pass
-    assert [cost for _, cost in tried] == [np.inf, 3.0, 5.0, 0.5 * ASIDE], "it is near enough"
+    assert [cost for _, cost in tried] == [np.inf, 3.0, 5.0, 0.5 * DETOUR], "it is near enough"
 
 
 @pytest.mark.parametrize("detour, stands", [(0.0, 1), (20.0, 51)])
