@@ -6,6 +6,7 @@ mod observer;
 pub(crate) mod operator;
 mod planner;
 mod record;
+pub(crate) mod words;
 
 use std::rc::Rc;
 
@@ -48,7 +49,7 @@ pub(crate) fn converse(
         Some(_) => &["stop", "hold"],
     };
     let page = LivePage::shared(&args.page, opened, takes)?;
-    let operator = Rc::new(OperatorInput::read(&args.ask, args.live, page.as_ref())?);
+    let operator = Rc::new(OperatorInput::read(&args.ask, args.words.live, page.as_ref())?);
     let mut prompt = OperatorPrompt { input: Rc::clone(&operator), page: page.clone() };
     let record = args.record.as_deref().map(ConversationRecord::create).transpose()?;
     if let (Some(record), Some(project)) = (&record, SavedProject::of(opened)) {

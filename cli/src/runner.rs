@@ -19,6 +19,7 @@ use motet_runtime::{
     RunControl, RunEnd, SwapRefusal, Time, ToldThing, Verifier, resume,
 };
 
+use crate::conversation::words::RunWords;
 use crate::error::{CliError, Exit, journal_error};
 use crate::flags::Speed;
 use crate::interrupt::{SLICE, catch_interrupts, is_interrupted, note_effect, note_event};
@@ -37,6 +38,8 @@ pub(crate) struct PacedView {
     guard: Option<Guard>,
     /// The room as the robot knows it, with what it has seen.
     room: ObservedScene,
+    /// Words of a person.
+    words: Option<RunWords>,
     /// Desk of policies that are to take over, with the view of one that does.
     desk: Option<(SwapChecker, ViewOf)>,
 }
@@ -54,6 +57,7 @@ impl PacedView {
             now: Time::ZERO,
             guard: None,
             room: ObservedScene::default(),
+            words: None,
             desk: None,
         }
     }
@@ -61,6 +65,11 @@ impl PacedView {
     /// The same with a guard, which checks deferred motions.
     pub(crate) fn with_guard(self, guard: Option<Guard>) -> Self {
         Self { guard, ..self }
+    }
+
+    /// The same with words of a person.
+    pub(crate) fn with_words(self, words: Option<RunWords>) -> Self {
+        Self { words, ..self }
     }
 
     /// The same with a desk of policies that are to take over.
@@ -138,7 +147,12 @@ impl Observer for PacedView {
         self.wait(now);
         self.view.reached(now);
         // A run stops once nobody watches it.
-        if is_interrupted() || self.view.is_closed() { RunControl::Stop } else { RunControl::Continue }
+        if is_interrupted() || self.view.is_closed() {
+            return RunControl::Stop;
+        }
+        let said = self.words.as_mut().and_then(|words| words.control(now));
+        said.iter().for_each(|_| self.view.go_below());
+        said.unwrap_or(RunControl::Continue)
     }
 
     fn detected(&mut self, _now: Time, seen: &[Detection], engine: &Engine) -> Vec<(Query, Answer)> {
@@ -167,9 +181,10 @@ impl Observer for PacedView {
     }
 
     fn at_least_every(&self) -> Time {
+        let words = self.words.as_ref().map_or(Time::NEVER, |words| words.lines.at_least_every());
         match self.speed {
-            Speed::Max => Time::NEVER,
-            Speed::Times(factor) => Time::from_secs(0.1 * factor),
+            Speed::Max => words,
+            Speed::Times(factor) => words.min(Time::from_secs(0.1 * factor)),
         }
     }
 
@@ -235,6 +250,9 @@ impl Runner<'_> {
         };
         paced.finish(&end);
         shared.iter().for_each(|page| page.borrow_mut().finish());
+        if end == RunEnd::Interrupted && paced.words.as_ref().is_some_and(|words| words.is_stopped) {
+            return Ok(Exit::Failed);
+        }
         let by_page = shared.as_ref().is_some_and(|page| page.borrow().hub().is_stopped());
         let is_asked = self.was_stopped || is_interrupted() || paced.view.is_closed() || by_page;
         if end == RunEnd::Interrupted && !is_asked {

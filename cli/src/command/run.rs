@@ -26,6 +26,7 @@ use motet_runtime::{
 use motet_syntax::{Parsed, Severity, Syntax};
 
 use crate::conversation::operator::{OperatorAnswers, OperatorInput, OperatorPrompt};
+use crate::conversation::words::{RunWords, WordArgs};
 use crate::documents::{Document, one_document};
 use crate::error::{CliError, Exit, journal_error};
 use crate::flags::{
@@ -54,6 +55,7 @@ const TAKES: &[&str] = &["stop", "hold", "answer"];
     motet run fetch_mug.motet --robot hsr --scene kitchen --speed max\n  \
     motet run fetch_mug.motet --scene kitchen --faults slips.json --answers person.json --format json\n  \
     motet run fetch_mug.motet --scene kitchen --record run/    write a journal for `motet replay run/`\n  \
+    motet run fetch_mug.motet --scene kitchen --say '5s: wait' --say '9s: go on'\n  \
     motet run policies.jsonl --robot hsr --scene kitchen --out runs.jsonl\n  \
     motet run --resume run/                                    continue after a crash\n  \
     motet run --resume run/ --driver 'python3 my_driver.py'    the same on a driver\n  \
@@ -73,7 +75,7 @@ pub(crate) struct RunArgs {
     session: SessionArgs,
     /// Check if a driver in another process keeps the laws of drivers, and print each broken one with its
     /// messages
-    #[arg(long, conflicts_with_all = ["record", "speed", "resume"])]
+    #[arg(long, conflicts_with_all = ["record", "speed", "resume", "say", "live"])]
     check: bool,
     /// Seconds that a call may take in a check
     ///
@@ -96,6 +98,8 @@ pub(crate) struct RunArgs {
         ]
     )]
     resume: Option<PathBuf>,
+    #[command(flatten)]
+    words: WordArgs,
     #[command(flatten)]
     page: PageArgs,
     /// View of the run: a tree of steps, or JSON events
@@ -170,7 +174,9 @@ fn check_and_run(file: &Path, args: &RunArgs, colors: Colors, report: &mut Repor
     };
     let view = view(args.format, engine.graph(), colors, clock);
     // Where the driver keeps the time of the wall clock, the view never waits.
-    let paced = PacedView::new(view, speed).with_guard(guard).with_room(opened.scene.clone());
+    let words = RunWords::of(&args.words)?;
+    let paced =
+        PacedView::new(view, speed).with_words(words).with_guard(guard).with_room(opened.scene.clone());
     let paced = with_desk(paced, page.as_ref(), Some(Arc::clone(&shared)), args, (colors, clock));
     let events = vec![Event::Begin];
     let (from, was_stopped) = (Time::ZERO, false);
@@ -374,7 +380,7 @@ fn resume(folder: &Path, args: &RunArgs, colors: Colors, report: &mut Report) ->
         note("the robot's detections are lost: deferred motions are left to the driver");
     }
     let scene = room.clone().unwrap_or_default();
-    let mut paced = paced.with_guard(guard).with_room(room);
+    let mut paced = paced.with_words(RunWords::of(&args.words)?).with_guard(guard).with_room(room);
     if sees {
         // What is in view counts for the motions that are checked from now on.
         let seen = driver.detections(from);

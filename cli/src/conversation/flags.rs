@@ -7,6 +7,7 @@ use clap::{Args, ValueEnum};
 use motet_planner::dialogue::OnInstruction;
 use motet_runtime::Time;
 
+use super::words::WordArgs;
 use crate::flags::{DriverArgs, OutputFormat, PageArgs, ServerArgs, SessionArgs, duration};
 
 /// Flags of a conversation.
@@ -19,12 +20,8 @@ pub(crate) struct ConversationArgs {
     /// Source of a person's lines: `terminal` for stdin, `never`, or `script FILE` with one line each
     #[arg(long, num_args = 1..=2, value_names = ["terminal|script|never", "FILE"])]
     pub(super) ask: Vec<String>,
-    /// Take lines of stdin as they come, also while the robot moves, as from a terminal
-    #[arg(long)]
-    pub(super) live: bool,
-    /// Line that is typed during the run, such as `12s: bring me the apple instead`; repeatable
-    #[arg(long, value_name = "TIME: TEXT")]
-    pub(super) say: Vec<ScheduledRequest>,
+    #[command(flatten)]
+    pub(super) words: WordArgs,
     /// Behaviour of a moving robot while a new instruction is planned
     #[arg(long, value_enum, default_value_t, value_name = "WHAT")]
     pub(super) on_instruction: InstructionArg,
@@ -85,7 +82,7 @@ pub(super) struct ModelArgs {
 
 /// Request that is typed at a time of the run.
 #[derive(Clone, PartialEq, Debug)]
-pub(super) struct ScheduledRequest {
+pub(crate) struct ScheduledRequest {
     /// Time since the start of the first run.
     pub(super) at: Time,
     pub(super) text: String,

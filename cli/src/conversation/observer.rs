@@ -1,7 +1,6 @@
 //! Observer of a conversation: shows and paces its runs, brings typed requests, and writes the record.
 
 use std::cell::RefCell;
-use std::cmp::Reverse;
 use std::rc::Rc;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -19,10 +18,11 @@ use motet_runtime::{
 };
 use serde_json::json;
 
-use super::flags::{ConversationArgs, ModelArgs, ScheduledRequest};
+use super::flags::{ConversationArgs, ModelArgs};
 use super::operator::OperatorInput;
 use super::planner::{client, printable};
 use super::record::{ConversationRecord, RunJournal};
+use super::words::{TypedLines, note_held};
 use crate::error::CliError;
 use crate::flags::{OutputFormat, Speed};
 use crate::interrupt::{SLICE, is_interrupted, note_event};
@@ -35,16 +35,13 @@ use motet::page::source::PolicyText;
 /// The longest time for which a run waits for the policy of an instruction, if nobody could let it go on.
 const PLANNING: Duration = Duration::from_secs(60);
 
-/// Interval at which scheduled requests are checked.
-const REQUEST_INTERVAL: Time = Time::from_nanos(100_000_000);
-
 /// Observer of a conversation.
 pub(super) struct RunObserver<'a> {
     args: &'a ConversationArgs,
     colors: Colors,
     /// Clock of the driver, and speed of the runs.
     pace: (Clock, Speed),
-    operator: Rc<OperatorInput>,
+    lines: TypedLines,
     record: Option<ConversationRecord>,
     /// Page that shows the conversation.
     pub(super) page: Option<SharedPage>,
@@ -52,8 +49,6 @@ pub(super) struct RunObserver<'a> {
     pub(super) driver: Option<SavedDriver>,
     request: String,
     task: Rc<RefCell<GroundingTask>>,
-    /// Scheduled requests, the latest first.
-    scheduled: Vec<ScheduledRequest>,
     view: Option<PacedView>,
     /// Revision of the shown policy within its run.
     revision: u32,
@@ -80,20 +75,16 @@ impl<'a> RunObserver<'a> {
         operator: Rc<OperatorInput>,
         record: Option<ConversationRecord>,
     ) -> Self {
-        let mut scheduled = args.say.clone();
-        scheduled.reverse();
-        scheduled.sort_by_key(|request| Reverse(request.at));
         Self {
             args,
             colors,
             pace,
-            operator,
+            lines: TypedLines::new(&args.words, operator),
             record,
             page: None,
             driver: None,
             request: String::new(),
             task: Rc::default(),
-            scheduled,
             view: None,
             revision: 0,
             next: None,
@@ -189,7 +180,7 @@ impl DialogueObserver for RunObserver<'_> {
 
     fn held(&mut self, is_held: bool) {
         self.held_until = is_held.then(|| Instant::now() + self.patience);
-        note(if is_held { "  keeps still; `go on` lets it go on" } else { "  goes on" });
+        note_held(is_held);
         self.go_below();
         self.write(if is_held { "held" } else { "proceeded" }, json!({}));
     }
@@ -248,9 +239,9 @@ impl DialogueObserver for RunObserver<'_> {
 
     fn reached(&mut self, now: Time) -> RunControl {
         let control = self.view.as_mut().map_or(RunControl::Continue, |view| view.reached(now));
-        let is_paced = control == RunControl::Continue && self.scheduled.is_empty();
+        let is_paced = control == RunControl::Continue && !self.lines.are_scheduled();
         if let Some(until) = self.held_until.filter(|_| is_paced) {
-            if self.operator.is_over() && Instant::now() >= until {
+            if self.lines.are_over() && Instant::now() >= until {
                 note("  stopped: nobody is there to let it go on");
                 return RunControl::Stop;
             }
@@ -262,7 +253,7 @@ impl DialogueObserver for RunObserver<'_> {
     }
 
     fn at_least_every(&self) -> Time {
-        let own = if self.scheduled.is_empty() { Time::NEVER } else { REQUEST_INTERVAL };
+        let own = self.lines.at_least_every();
         self.view.as_ref().map_or(own, |view| view.at_least_every().min(own))
     }
 
@@ -275,10 +266,8 @@ impl DialogueObserver for RunObserver<'_> {
     }
 
     fn request(&mut self, now: Time) -> Option<String> {
-        let due = self.scheduled.pop_if(|request| request.at <= now).map(|request| request.text);
-        let line = due.or_else(|| self.operator.typed())?;
         // A line that is typed below a view goes with the next drawing.
-        note(&format!("> {}", escape(&line)));
+        let line = self.lines.due(now)?;
         self.go_below();
         self.requested(&line);
         self.patience = if motet_requests::holds(&line) { Duration::ZERO } else { PLANNING };

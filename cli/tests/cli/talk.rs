@@ -117,6 +117,9 @@ fn words_stop_and_hold_a_robot_at_every_speed() {
         .check(3, &["err:stopped: nobody is there to let it go on"]);
     bring(&["--speed", "max", "--say", "2s: where is the apple?"])
         .check(0, &["out:The green apple is on the", "out:handover(coke"]);
+    // What was asked for first is not done.
+    bring(&["--speed", "max", "--say", "4s: bring me the apple"])
+        .check(3, &["out:✓ handover(apple, user)", "err:not done", "err:Shall I go on with"]);
     for pause in ["go-on", "pause"] {
         let flags = ["--speed", "max", "--say", "4s: bring me the apple instead", "--on-instruction", pause];
         let ran = bring(&flags);
@@ -129,6 +132,21 @@ fn words_stop_and_hold_a_robot_at_every_speed() {
     let searched = [&flags[..], &["--speed", "max"], &words].concat();
     let ran = place.run_args(&searched.iter().map(|flag| (*flag).to_owned()).collect::<Vec<_>>());
     ran.check(0, &["err:keeps still", "out:✓ handover(apple, user)"]);
+}
+
+#[test]
+fn words_stop_and_hold_a_run_of_one_policy() {
+    let policy = "policy round for hsr {\n    go(counter)\n    go(kitchen_table)\n}\n";
+    let place = Place::new("run_words").file("round.motet", policy);
+    let run = |words: &[&str]| {
+        let line = format!("run round.motet {ROOM} {IDEAL} --speed max");
+        let said = words.iter().flat_map(|word| ["--say", word]);
+        place.run_args(&line.split(' ').chain(said).map(str::to_owned).collect::<Vec<_>>())
+    };
+    run(&["2s: stop"]).check(3, &["err:> stop", "out:interrupted", "out:\n  2.0 s of simulated time"]);
+    run(&["2s: wait", "12s: go on"]).check(0, &["err:keeps still", "err:goes on"]);
+    run(&["2s: wait"]).check(3, &["err:stopped: nobody is there to let it go on"]);
+    run(&["2s: bring me the apple"]).check(0, &["err:`motet do` takes other words"]);
 }
 
 #[test]

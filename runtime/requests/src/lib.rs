@@ -27,9 +27,9 @@ pub use answer::{called, choose, encourages, named, pick};
 pub use error::RequestError;
 pub use meaning::{Aim, Certainty, Intent};
 pub use polarity::{
-    Polarity, added, holds, is_wordless, polarity, proceeds, refuses, seeks, stops, withdrawn,
+    Polarity, added, holds, is_wordless, polarity, proceeds, refuses, replaces, seeks, stops, withdrawn,
 };
-pub use question::{RoomQuestion, Topic, is_question, question, step_done};
+pub use question::{RoomQuestion, Topic, is_question, question, step_doing, step_done};
 
 /// A step that a request asks for by its name.
 #[derive(Clone, PartialEq, Eq, Debug)]

@@ -2,7 +2,7 @@
 
 use crate::engine::english::{
     ADDITIONS, ANSWER_COURTESY, ASKED_TO_STOP, HOLDS_STILL, IGNORANT, MOMENT, NO, PLACE_AFTER_STOP, PROCEEDS,
-    REFUSALS, SEEKS, STOPS, STOPS_ALONE, WITHDRAWALS, YES,
+    REFUSALS, REPLACES, SEEKS, STOPS, STOPS_ALONE, WITHDRAWALS, YES,
 };
 use crate::engine::phrases::Phrases;
 use crate::engine::token::{Token, pieces, tokens};
@@ -132,6 +132,12 @@ pub fn refuses(text: &str) -> bool {
 #[must_use]
 pub fn seeks(text: &str) -> bool {
     has(text, &SEEKS)
+}
+
+/// True if a text says that it replaces what was asked for before: "the apple instead".
+#[must_use]
+pub fn replaces(text: &str) -> bool {
+    has(text, &REPLACES)
 }
 
 fn has(text: &str, phrases: &Phrases) -> bool {

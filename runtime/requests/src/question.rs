@@ -4,7 +4,7 @@ use motet_robots::scene::Entity;
 use smol_str::SmolStr;
 
 use crate::engine::effort::bounded;
-use crate::engine::english::{PRONOUNS, STEPS_DONE};
+use crate::engine::english::{PRONOUNS, STEPS_DOING, STEPS_DONE};
 use crate::engine::rule::Rules;
 use crate::engine::token::{Token, tokens};
 use crate::{MAX_REQUEST, RequestContext, called, named};
@@ -30,13 +30,41 @@ pub enum Topic {
     Contents,
     /// Presence of a thing in the room: "is there a coke?"
     Existence,
+    /// Number of things, in the room or at a place: "how many mugs are there?"
+    Count,
+    /// Distance of a thing from the robot: "how far away is the coke?"
+    Distance,
+    /// Feasibility of taking a thing: "can you reach the coke?"
+    Reach,
     /// Steps so far: "what did you do?"
     History,
     /// Steps that run: "what are you doing?"
     Activity,
     /// Things in view: "what do you see?"
     View,
+    /// Things that were in view so far: "what have you seen?"
+    Seen,
 }
+
+/// Topics by the words of the rules.
+const TOPICS: &[(&str, Topic)] = &[
+    ("location", Topic::Location),
+    ("standing", Topic::Standing),
+    ("held", Topic::Held),
+    ("holds", Topic::Holds),
+    ("open", Topic::Open),
+    ("closed", Topic::Closed),
+    ("placed", Topic::Placed),
+    ("contents", Topic::Contents),
+    ("existence", Topic::Existence),
+    ("count", Topic::Count),
+    ("distance", Topic::Distance),
+    ("reach", Topic::Reach),
+    ("history", Topic::History),
+    ("activity", Topic::Activity),
+    ("view", Topic::View),
+    ("seen", Topic::Seen),
+];
 
 /// A question with the things that it names.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -46,7 +74,7 @@ pub struct RoomQuestion {
     pub things: Vec<SmolStr>,
     /// Place that it names.
     pub place: Option<SmolStr>,
-    /// Words for the things, as they were said.
+    /// Words for the things, as they were said; empty for a pronoun that means nothing.
     pub said: String,
 }
 
@@ -71,12 +99,15 @@ pub fn is_question(text: &str) -> bool {
 pub fn question(text: &str, situation: &RequestContext<'_>) -> Option<RoomQuestion> {
     let (topic, thing, place) = read(text)?;
     let mut things = named(&thing, situation);
-    if things.is_empty() && PRONOUNS.has(&thing) {
+    let is_pronoun = things.is_empty() && PRONOUNS.has(&thing);
+    if is_pronoun {
         things.extend(situation.spoken_of.last().cloned());
     }
-    let place = place.and_then(|place| named(&place, situation).into_iter().next());
+    let (is_at, place) = (place.is_some(), place.and_then(|at| named(&at, situation).into_iter().next()));
+    // Nobody counts what is at a place that is not known.
+    things.retain(|_| topic != Topic::Count || place.is_some() == is_at);
     let said = ["the ", "a ", "an ", "my ", "any ", "some "].iter().find_map(|lead| thing.strip_prefix(lead));
-    let said = said.unwrap_or(&thing).to_owned();
+    let said = if is_pronoun { "" } else { said.unwrap_or(&thing) }.to_owned();
     Some(RoomQuestion { topic, things, place, said })
 }
 
@@ -95,21 +126,7 @@ fn read(text: &str) -> Option<(Topic, String, Option<String>)> {
     said.truncate(end);
     let found = bounded(|| Rules("room_questions").at(&said, 0)).flatten()?;
     let (topic, rest) = found.words.split_first()?;
-    let topic = match topic.word() {
-        "location" => Topic::Location,
-        "standing" => Topic::Standing,
-        "held" => Topic::Held,
-        "holds" => Topic::Holds,
-        "open" => Topic::Open,
-        "closed" => Topic::Closed,
-        "placed" => Topic::Placed,
-        "contents" => Topic::Contents,
-        "existence" => Topic::Existence,
-        "history" => Topic::History,
-        "activity" => Topic::Activity,
-        "view" => Topic::View,
-        _ => return None,
-    };
+    let topic = TOPICS.iter().find(|(word, _)| *word == topic.word())?.1;
     let words = |tokens: &[Token]| tokens.iter().map(Token::word).collect::<Vec<_>>().join(" ");
     let mut parts = rest.split(|token| token.word() == "|");
     let first = parts.next().map(words).unwrap_or_default();
@@ -121,14 +138,32 @@ fn read(text: &str) -> Option<(Topic, String, Option<String>)> {
 /// scene or texts. Other primitives are said by their names.
 #[must_use]
 pub fn step_done(primitive: &str, args: &[SmolStr], situation: &RequestContext<'_>) -> String {
+    step(("did", STEPS_DONE.value(&primitive.replace('_', " "))), primitive, args, situation)
+}
+
+/// Words for a step that runs, or that was tried: "picking up the coke".
+#[must_use]
+pub fn step_doing(primitive: &str, args: &[SmolStr], situation: &RequestContext<'_>) -> String {
+    step(("doing", STEPS_DOING.value(&primitive.replace('_', " "))), primitive, args, situation)
+}
+
+fn step(
+    (verb, pattern): (&str, Option<&str>),
+    primitive: &str,
+    args: &[SmolStr],
+    situation: &RequestContext<'_>,
+) -> String {
     let words = |id: &SmolStr| the(situation.scene.entities.get(id), id);
-    let Some(pattern) = STEPS_DONE.value(&primitive.replace('_', " ")) else {
-        let args: Vec<String> = args.iter().map(words).collect();
-        return format!("did `{primitive}` {}", args.join(", ")).trim_end().to_owned();
+    let Some(pattern) = pattern else {
+        let known = |id: &SmolStr| situation.scene.entities.contains_key(id);
+        let args = args.iter().map(|id| if known(id) { words(id) } else { id.to_string() });
+        let args: Vec<String> = args.collect();
+        return format!("{verb} `{primitive}` {}", args.join(", ")).trim_end().to_owned();
     };
     let mut text = pattern.to_owned();
     for (index, arg) in args.iter().enumerate() {
         let relation = situation.scene.entities.get(arg).map_or("at", Entity::relation);
+        text = text.replace(&format!("\"{{{index}}}\""), &format!("\"{arg}\""));
         text = text.replace(&format!("{{@{index}}}"), &format!("{relation} {}", words(arg)));
         text = text.replace(&format!("{{{index}}}"), &words(arg));
     }
@@ -143,13 +178,13 @@ fn the(entity: Option<&Entity>, id: &SmolStr) -> String {
             _ => called(entity),
         },
         Some(entity) => format!("the {}", called(entity)),
-        None => id.to_string(),
+        None => format!("the {id}"),
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{RoomQuestion, Topic, is_question, question, step_done};
+    use super::{RoomQuestion, Topic, is_question, question, step_doing, step_done};
     use crate::RequestContext;
 
     #[test]
@@ -179,6 +214,15 @@ mod tests {
             ("What have you done so far?", Topic::History, &[], None),
             ("what are you doing right now?", Topic::Activity, &[], None),
             ("what can you see?", Topic::View, &[], None),
+            ("what have you seen?", Topic::Seen, &[], None),
+            ("is the drawer empty?", Topic::Contents, &[], Some("drawer_1")),
+            ("which things are on the table?", Topic::Contents, &[], Some("kitchen_table")),
+            ("how many mugs are there?", Topic::Count, &["mug_1", "mug_2"], None),
+            ("how many mugs are on the shelf?", Topic::Count, &["mug_1", "mug_2"], Some("shelf")),
+            ("did you bring the coke?", Topic::Placed, &["coke"], Some("user")),
+            ("How far away is the coke?", Topic::Distance, &["coke"], None),
+            ("is anything in your hand?", Topic::Held, &[], None),
+            ("can you reach the coke?", Topic::Reach, &["coke"], None),
         ] {
             let asked = question(text, &situation);
             let RoomQuestion { topic: found, things: named, place: at, .. } =
@@ -196,6 +240,7 @@ mod tests {
         for text in [
             "bring me the coke",
             "can you bring me the coke?",
+            "can you reach me the coke?",
             "put the coke where the mug is",
             "where is the coke? bring it to me",
             "is the coke on the table then bring it",
@@ -217,6 +262,9 @@ mod tests {
         assert_eq!(said("pick", &["coke"]), "picked up the coke can");
         assert_eq!(said("place", &["coke", "counter"]), "put the coke can on the kitchen counter");
         assert_eq!(said("handover", &["coke", "user"]), "handed the coke can to you");
+        assert_eq!(said("say", &["the apple"]), "said \"the apple\"");
+        assert_eq!(said("search", &["stapler"]), "looked for the stapler");
         assert_eq!(said("dance", &[]), "did `dance`");
+        assert_eq!(step_doing("pick", &owned(&["coke"]), &situation), "picking up the coke can");
     }
 }

@@ -353,9 +353,14 @@ fn conversation_what_was_asked_for_before_is_not_forgotten() {
     assert_eq!(outcome, Outcome::Done);
     assert_eq!(asked[0].question, "That is done. Shall I go on with \"bring me the coke\"?");
     assert_eq!(sim.holds("at", &["coke", "user"]), Some(true));
-    // Nobody wants the first one any more.
+    // The first one is not done if nobody wants it any more, or if nobody answers.
+    let (outcome, asked, _) = says("bring me the coke", "bring me the apple", &["no"]);
+    assert_eq!((outcome, asked.len()), (Outcome::GivenUp, 1));
     let (outcome, asked, _) = says("bring me the coke", "bring me the apple", &[]);
-    assert_eq!((outcome, asked.len()), (Outcome::Done, 1));
+    assert_eq!(outcome, Outcome::Failed(asked[0].clone()));
+    // Who replaces it says so.
+    let (outcome, asked, _) = says("bring me the coke", "actually, bring me the apple", &[]);
+    assert_eq!((outcome, asked.len()), (Outcome::Done, 0));
     // What could not be done is not done, whatever else was.
     let setting = setting("hsr");
     let mut sim = coke_in_cupboard(&setting);
@@ -396,7 +401,7 @@ fn conversation_question_that_nobody_answers_is_quoted() {
 }
 
 /// Lines at times, with what was answered and held.
-#[derive(Default)]
+#[derive(Default, Debug)]
 struct Lines {
     says: Vec<(f64, &'static str)>,
     answers: Vec<Option<String>>,
@@ -463,7 +468,7 @@ fn conversation_keeps_still_until_it_may_go_on() {
     assert_eq!(outcome, Outcome::Done);
     assert_eq!(lines.held.iter().map(|(_, is_held)| *is_held).collect::<Vec<_>>(), [true, false]);
     assert!((end - plain - 10.0).abs() < 0.5, "{plain} s and {end} s");
-    assert!(lines.answers[0].as_ref().unwrap().starts_with("I am busy with"), "{:?}", lines.answers);
+    assert_eq!(lines.answers, [Some("I am looking for the coke can.".to_owned())]);
     // Stopped where it keeps still, it does not move any more.
     let (mut sim, mut talk) = (new(), Conversation::new(&setting));
     let (outcome, end, _) =
@@ -491,8 +496,8 @@ fn conversation_pauses_for_an_instruction_if_it_shall() {
 
 #[test]
 fn conversation_looks_where_it_does_not_know() {
-    // From where it is, and then at one surface after the other.
-    for (xyz, on, policies) in [([1.98, 0.5, 0.77], "kitchen_table", 1), ([-1.72, 1.0, 1.05], "shelf", 2)] {
+    // Without a step of its own, and then at one surface after the other.
+    for (xyz, on, policies) in [([1.98, 0.5, 0.77], "kitchen_table", 0), ([-1.72, 1.0, 1.05], "shelf", 2)] {
         let mut setting = setting("hsr");
         let coke = setting.scene.entities.get_mut("coke").unwrap();
         let pose = Some(Placement { xyz, ..Placement::default() });
@@ -521,18 +526,114 @@ fn conversation_knows_where_it_saw_a_thing_that_nobody_told_of() {
         class: "stapler".into(),
         names: vec!["blue stapler".into()],
         shape: Some(EntityShape::Box([0.12, 0.04, 0.06])),
-        on: Some("counter".into()),
+        on: Some("shelf".into()),
         fixed: false,
-        ..Entity::place("stapler".into(), Placement { xyz: [0.8, -2.0, 0.93], rpy: [0.0; 3] })
+        ..Entity::place("stapler".into(), Placement { xyz: [-1.72, 1.0, 1.05], rpy: [0.0; 3] })
     };
     world.entities.insert("stapler".into(), stapler);
     let options = SimOptions { world: Some(world), ..SimOptions::default() };
     let mut sim = Sim::new(&setting.robot, &setting.scene, options);
     let mut talk = Conversation::new(&setting);
-    carried_out(&mut talk, &mut sim, "go to the counter", &[]);
-    let (outcome, _, lines) = carried_out(&mut talk, &mut sim, "where is the stapler?", &[]);
-    assert_eq!((outcome, lines.policies), (Outcome::Done, 0));
-    assert_eq!(lines.answers, [Some("The blue stapler is on the kitchen counter.".to_owned())]);
+    // It looks for it once.
+    for policies in [1, 0] {
+        let (outcome, _, lines) = carried_out(&mut talk, &mut sim, "where is the stapler?", &[]);
+        assert_eq!((outcome, lines.policies), (Outcome::Done, policies));
+        assert_eq!(lines.answers, [Some("The blue stapler is on the wall shelf.".to_owned())]);
+    }
+}
+
+/// Asks questions in turn, and compares the answers and the number of policies that each took.
+fn check_answers(talk: &mut Conversation<'_>, sim: &mut Sim, asked: &[(&'static str, Option<&str>, usize)]) {
+    for (question, answer, policies) in asked {
+        let (_, _, lines) = carried_out(talk, sim, question, &[]);
+        assert_eq!(lines.answers, [answer.map(ToOwned::to_owned)], "{question}");
+        assert_eq!(lines.policies, *policies, "{question}");
+    }
+}
+
+#[test]
+fn conversation_remembers_what_it_did_not_see() {
+    let setting = setting("hsr");
+    let mut world = setting.scene.clone();
+    let coke = world.entities.get_mut("coke").unwrap();
+    (coke.on, coke.pose, coke.inside) = (None, None, Some("cupboard_1".into()));
+    let options = SimOptions { world: Some(world), ..SimOptions::default() };
+    let mut sim = Sim::new(&setting.robot, &setting.scene, options);
+    let mut talk = Conversation::new(&setting);
+    let mut person = Answers(vec!["where is the coke?", "leave it"], Vec::new());
+    let mut lines = Lines::default();
+    let request = "bring me the coke";
+    let (outcome, _) = talk.carry_out(request, &mut Builtin, &mut sim, &mut person, &mut lines, Time::ZERO);
+    assert_eq!(outcome, Outcome::GivenUp);
+    let unknown = "I do not know where the coke can is. I looked on the kitchen counter and did not see it.";
+    assert_eq!(lines.answers, [Some(unknown.to_owned())]);
+    let missed = "No, I looked on the kitchen counter and saw no coke can.";
+    let tried = "I tried looking for the coke can, without success (not found).";
+    let there = "The coke can is in the kitchen cupboard.";
+    check_answers(
+        &mut talk,
+        &mut sim,
+        &[
+            ("is the coke on the counter?", Some(missed), 0),
+            ("what did you do?", Some(tried), 0),
+            // From where it is, and at one surface after the other.
+            ("where is the coke?", None, 2),
+            ("what is in the cupboard?", Some(there), 2),
+            ("where is the coke?", Some(there), 0),
+            ("is the coke on the counter?", Some(&format!("No. {there}")), 0),
+        ],
+    );
+    let (_, _, lines) = carried_out(&mut talk, &mut sim, "what have you seen?", &[]);
+    assert!(lines.answers[0].as_ref().unwrap().contains("the coke can in the kitchen cupboard"), "{lines:?}");
+}
+
+#[test]
+fn conversation_looks_into_what_is_closed_and_closes_it_again() {
+    let setting = setting("hsr");
+    let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
+    let mut talk = Conversation::new(&setting);
+    check_answers(
+        &mut talk,
+        &mut sim,
+        &[
+            ("is the drawer empty?", Some("I looked in the top drawer and saw nothing."), 2),
+            ("what is in the drawer?", Some("I looked in the top drawer and saw nothing."), 0),
+            ("is there milk in the fridge?", Some("No, I looked in the refrigerator and saw no milk."), 2),
+        ],
+    );
+    for container in ["drawer_1", "fridge_1"] {
+        assert_eq!(sim.holds("open", &[container]), Some(false), "{container}");
+    }
+}
+
+#[test]
+fn conversation_question_moves_nothing_that_is_known() {
+    let setting = setting("hsr");
+    let mut sim = Sim::new(&setting.robot, &setting.scene, SimOptions::default());
+    let mut talk = Conversation::new(&setting);
+    let reach = "Yes, I can reach the coke can, as far as I can tell without a motion.";
+    let mugs = "I know of 2: the red mug and the blue mug.";
+    check_answers(
+        &mut talk,
+        &mut sim,
+        &[
+            ("can you reach the coke?", Some(reach), 0),
+            ("did you bring the coke?", Some("No. The coke can is on the kitchen counter."), 0),
+            ("how many mugs are there?", Some(mugs), 0),
+            ("is anything in your hand?", Some("I hold nothing."), 0),
+            ("how far away is the apple?", Some("The green apple is about 2.1 m away."), 0),
+        ],
+    );
+    assert_eq!(sim.holds("holding", &["coke"]), Some(false));
+    carried_out(&mut talk, &mut sim, "bring me the coke", &[]);
+    check_answers(
+        &mut talk,
+        &mut sim,
+        &[
+            ("where is the coke?", Some("You have the coke can."), 0),
+            ("did you bring the coke?", Some("Yes, you have the coke can."), 0),
+        ],
+    );
 }
 
 #[test]

@@ -60,6 +60,9 @@ pub(super) fn refuse_flags(args: &RunArgs) -> Result<(), CliError> {
     if args.record.is_some() {
         return wrong("--record", "is for one policy; `--out` keeps the results of a .jsonl file");
     }
+    if args.words.live || !args.words.say.is_empty() {
+        return wrong("--say, --live", simulated);
+    }
     if args.check {
         return wrong("--check", "is for one policy");
     }

@@ -30,6 +30,12 @@ pub struct Knowledge {
     came_from: Vec<(SmolStr, SmolStr)>,
     /// Things that were seen elsewhere than in the scene, or that it lacks.
     pub(super) seen: Sightings,
+    /// Things that were in view so far, in the order in which they were seen.
+    pub(super) seen_so_far: Vec<SmolStr>,
+    /// Places at which a thing was looked for and not seen.
+    pub(super) missed: Vec<ReportedLocation>,
+    /// Places at which the robot looked at everything that is there.
+    pub(super) looked_at: Vec<SmolStr>,
     /// Things of which the driver was not told yet.
     pub(super) untold: Vec<ToldThing>,
     /// Grip of the thing that the hand took last, if it is known.
@@ -69,6 +75,9 @@ impl Knowledge {
         self.some.retain(|query| !speaks(query));
         self.some.extend(snapshot.some);
         self.pending = snapshot.pending;
+        let mut missed = std::mem::take(&mut self.missed);
+        missed.retain(|one| self.told(fluents::VISIBLE, &one.thing) != Some(Truth::True));
+        self.missed = missed;
         // What a run has grasped, it tells; one that grasps nothing leaves the hand as it was.
         let is_grasp = |node: &Node| match &node.kind {
             NodeKind::Call(CallNode { motion: Some(motion), .. }) => motion.query.starts_with(lang::REACH),
@@ -505,6 +514,7 @@ impl Knowledge {
 
     /// Takes in a stated location.
     pub fn hear(&mut self, said: &ReportedLocation) {
+        self.missed.retain(|one| one.thing != said.thing);
         let thing = Pattern::Is(Value::Entity(said.thing.clone()));
         let mut tell = |fluent: &str, args: Vec<Pattern>, truth| {
             self.facts.push((Query::Fact { fluent: fluent.into(), args }, truth));

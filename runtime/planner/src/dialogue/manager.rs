@@ -2,7 +2,7 @@
 //! the answers.
 
 use motet_requests::{
-    Intent, Polarity, ReportedLocation, RequestError, RoomQuestion, Topic, polarity, seeks,
+    Intent, Polarity, ReportedLocation, RequestError, RoomQuestion, Topic, polarity, replaces, seeks,
 };
 use motet_robots::scene::{Entity, Scene};
 use motet_runtime::{Driver, RunEnd, Time};
@@ -14,7 +14,7 @@ use super::answer::{self, Answer};
 use super::conversation::{Conversation, DialogueObserver, Outcome, Person};
 use super::early_start::Continuation;
 use super::live_run::{LiveRun, RunResult, StopReason};
-use super::problem::{self, Kind, Problem, bare_noun};
+use super::problem::{Kind, Problem, bare_noun};
 use crate::Planner;
 use crate::model::{ReplyVerdict, judge};
 use crate::planned::{PlanError, PlannedRequest, quoted};
@@ -63,9 +63,9 @@ impl Conversation<'_> {
         watcher: &mut dyn DialogueObserver,
         from: Time,
     ) -> (Outcome, Time) {
-        let scene = self.known.scene(&self.setting.scene);
-        if let Some(question) = motet_requests::question(request, &self.known.situation(&scene)) {
-            return self.reply(request, &question, (planner, person, watcher), driver, from);
+        self.look_around(driver, from);
+        if let Some(question) = self.question(request) {
+            return self.reply(request, question, (planner, person, watcher), driver, from);
         }
         self.hear(request);
         self.memory.instruct(from, request);
@@ -80,8 +80,6 @@ struct Task {
     request: String,
     /// The request that this one replaced, if that is still open.
     before: Option<String>,
-    /// True where the one before could not be done, and not where a person replaced it.
-    is_owed: bool,
     /// True for a request that helps with the one before, which then goes on without a question.
     helps: bool,
     /// True while the robot only looks where a person said, before it goes on.
@@ -98,12 +96,11 @@ struct Task {
 
 impl Task {
     fn new(request: String, before: Option<String>) -> Self {
-        // Who says so replaces what was asked for before.
-        let is_other = request.contains("instead") || matches!(polarity(&request), Polarity::No(_));
+        let is_other = replaces(&request) || matches!(polarity(&request), Polarity::No(_));
         let before = before.filter(|before| !is_other && !request.contains(before.as_str()));
         let (meant, elsewhere) = (Vec::new(), Vec::new());
-        let (is_owed, helps, looks, sought) = (false, false, false, Vec::new());
-        Self { request, before, is_owed, helps, looks, sought, meant, elsewhere, questions: 0, tries: 0 }
+        let (helps, looks, sought) = (false, false, Vec::new());
+        Self { request, before, helps, looks, sought, meant, elsewhere, questions: 0, tries: 0 }
     }
 }
 
@@ -166,7 +163,7 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
     pub(super) fn pursue(&mut self, driver: &mut dyn Driver) -> Outcome {
         let mut latest = None;
         for _ in 0..MAX_ROUNDS {
-            self.look(driver);
+            self.talk.look_around(driver, self.now);
             let scene = self.talk.known.scene(&self.talk.setting.scene);
             let proposed = match self.ready.take() {
                 Some(answered) => Ok(answered),
@@ -204,8 +201,9 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
         Outcome::Failed(latest.unwrap_or_else(nothing))
     }
 
-    /// Looks for an object from where the robot is, and then at one surface after the other. Nobody is asked:
-    /// who wants to know where it is cannot tell. What is asked for meanwhile is pursued.
+    /// Looks for an object, given by its id or by words, from where the robot is, and then at one surface
+    /// after the other. Nobody is asked: who wants to know where it is cannot tell. What is asked for
+    /// meanwhile is pursued.
     pub(super) fn search(&mut self, thing: &SmolStr, driver: &mut dyn Driver) -> SearchEnd {
         let asked = self.task.request.clone();
         for is_near in [true, false] {
@@ -225,14 +223,6 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
             }
         }
         SearchEnd::Missed
-    }
-
-    /// Takes in what is in view before a plan.
-    fn look(&mut self, driver: &mut dyn Driver) {
-        if driver.capabilities().detections {
-            let seen = driver.detections(self.now);
-            self.talk.known.look(&self.talk.setting.scene, &seen);
-        }
     }
 
     fn propose(&mut self, scene: &Scene, base: Option<[f64; 3]>) -> Result<PlannedRequest, PlanError> {
@@ -301,7 +291,11 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
                 return RoundResult::Round;
             }
         }
-        match Problem::of_run(&end, (&graph, &bound), scene) {
+        let problem = Problem::of_run(&end, (&graph, &bound), scene);
+        if let Some(Problem { kind: Kind::NotFound, about: Some(thing), .. }) = &problem {
+            self.talk.known.miss(&self.talk.setting.scene, thing);
+        }
+        match problem {
             // It looked for a thing that nobody knows, and did not see it.
             Some(Problem { kind: Kind::NotFound, about, .. })
                 if looks && about.as_ref().is_none_or(|id| !scene.entities.contains_key(id)) =>
@@ -410,7 +404,7 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
             self.task = Task { questions: self.task.questions, ..Task::new(before, None) };
             return RoundResult::Round;
         }
-        self.goes_on(&Problem::half_done(&before), before, Outcome::Done)
+        self.goes_on(&Problem::half_done(&before), before)
     }
 
     /// Handles a request that got no policy.
@@ -432,24 +426,25 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
             // Something that is not understood was said in between.
             (PlanError::RequestError(RequestError::NotUnderstood { .. }), Some(before)) => {
                 let question = Problem::interrupted(&self.task.request, &before);
-                self.goes_on(&question, before, Outcome::GivenUp)
+                self.goes_on(&question, before)
             }
             (_, _) => RoundResult::Problem(problem, Retry::Usual),
         }
     }
 
-    /// Resumes the replaced request if a person agrees.
-    fn goes_on(&mut self, question: &Problem, before: String, or: Outcome) -> RoundResult {
+    /// Resumes the replaced request if a person agrees. Otherwise it is not done, whatever else was.
+    fn goes_on(&mut self, question: &Problem, before: String) -> RoundResult {
         let answer = self.person.ask(question);
         self.watcher.asked(question, answer.as_deref());
-        if answer.is_none() && self.task.is_owed && !self.watcher.is_stopped() {
-            return RoundResult::Over(Outcome::Failed(question.clone()));
-        }
-        if !answer.is_some_and(|answer| matches!(polarity(&answer), Polarity::Yes(_))) {
-            return RoundResult::Over(or);
-        }
-        self.task = Task::new(before, None);
-        RoundResult::Round
+        RoundResult::Over(match answer {
+            Some(answer) if matches!(polarity(&answer), Polarity::Yes(_)) => {
+                self.task = Task::new(before, None);
+                return RoundResult::Round;
+            }
+            Some(_) => Outcome::GivenUp,
+            None if self.watcher.is_stopped() => Outcome::Stopped,
+            None => Outcome::Failed(question.clone()),
+        })
     }
 
     /// Asks a person about a problem until the answer is understood. Returns the outcome if the answer ends
@@ -477,7 +472,7 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
                 && !is_suggestion(&back, &meaning)
             {
                 let known = self.talk.known_answer(&back, &self.talk.known);
-                let known = known.unwrap_or_else(|| problem::unknown(&back));
+                let known = known.unwrap_or_else(|| self.talk.unknown(&back));
                 self.talk.memory.asked(self.now, &answer, Some(&known));
                 self.watcher.answered(&answer, Some(&known));
                 self.task.questions -= 1;
@@ -497,11 +492,10 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
                 // What is asked for where something could not be done may be a help to it.
                 let helps = matches!(problem.kind, Kind::NotFound | Kind::NotReachable | Kind::ActionFailed);
                 let earlier = std::mem::take(&mut self.task.request);
-                let is_owed = helps || self.task.is_owed;
                 let before = helps.then_some(earlier).or(self.task.before.take());
                 let helps = helps && self.prepares(&request, scene);
                 let task = Task::new(request, before);
-                self.task = Task { questions: self.task.questions, is_owed, helps, ..task };
+                self.task = Task { questions: self.task.questions, helps, ..task };
                 return None;
             }
             Answer::Look { degrees } => {

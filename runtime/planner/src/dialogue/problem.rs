@@ -11,7 +11,7 @@ use smol_str::SmolStr;
 
 use super::reason::{self, Reason};
 use crate::builtin::PlanError;
-use motet_requests::{RequestContext, RequestError, RoomQuestion, Topic};
+use motet_requests::{RequestContext, RequestError};
 
 /// The kinds of failure.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
@@ -364,18 +364,5 @@ pub(super) fn named_entity(graph: &Graph, bound: &[(SmolStr, Value)], arg: &Term
     match value {
         Value::Entity(id) => Some(id.clone()),
         _ => None,
-    }
-}
-
-/// Answer of a robot that does not know, and that did not find out.
-pub(super) fn unknown(question: &RoomQuestion) -> String {
-    let RoomQuestion { topic, things, said, .. } = question;
-    match topic {
-        Topic::Standing => "I do not know where I am.".to_owned(),
-        Topic::Location | Topic::Placed if things.is_empty() => format!("I know of no {said} here."),
-        Topic::Location | Topic::Placed => format!("I do not know where the {said} is."),
-        Topic::Open | Topic::Closed => format!("I do not know if the {said} is open."),
-        Topic::Held | Topic::Holds | Topic::Contents | Topic::Existence => "I do not know.".to_owned(),
-        Topic::History | Topic::Activity | Topic::View => "I do not know.".to_owned(),
     }
 }

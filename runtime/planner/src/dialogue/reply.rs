@@ -1,8 +1,10 @@
 //! Answers to questions about the room and the robot: from what is known and remembered, and where that does
 //! not say, from what the robot finds out when it looks.
 
+use std::time::Duration;
+
 use motet_graph::Value;
-use motet_requests::{RequestContext, RoomQuestion, Topic, step_done};
+use motet_requests::{ReportedLocation, RequestContext, RoomQuestion, Topic, step_doing, step_done};
 use motet_robots::scene::{Entity, Scene};
 use motet_runtime::memory::{MemoryEvent, StepEnd};
 use motet_runtime::{Driver, Pattern, Query, Time, Truth};
@@ -13,58 +15,109 @@ use smol_str::SmolStr;
 use super::conversation::{Conversation, DialogueObserver, Outcome, Person};
 use super::knowledge::Knowledge;
 use super::manager::{DialogueManager, SearchEnd};
-use super::problem::{Kind, Problem, join, unknown};
+use super::problem::{Kind, Problem, join};
+use super::reason::in_words;
 use super::senses::{ask, sense};
 use crate::Planner;
+use crate::prompt::{Reachability, seen};
 
 /// The most steps that an answer tells.
 const MAX_STEPS: usize = 12;
 
+/// Way to find an answer out.
+enum Look {
+    /// Looks for a thing, given by its id or by words.
+    For(SmolStr),
+    /// Looks at everything at a place, which a request gets the robot to. The other one puts right what that
+    /// has changed.
+    At(SmolStr, String, Option<String>),
+    /// Carries out a request.
+    By(String),
+}
+
 impl Conversation<'_> {
+    /// Takes in what is in view.
+    pub(super) fn look_around(&mut self, driver: &mut dyn Driver, now: Time) {
+        if driver.capabilities().detections {
+            let seen = driver.detections(now);
+            self.known.look(&self.setting.scene, &seen);
+        }
+    }
+
+    /// Reads a question by what is known now.
+    pub(super) fn question(&self, said: &str) -> Option<RoomQuestion> {
+        let scene = self.known.scene(&self.setting.scene);
+        motet_requests::question(said, &self.known.situation(&scene))
+    }
+
     /// Answers a question at the driver's time `from`. Returns the outcome, done where there is an answer,
     /// and the time at the end.
     pub(super) fn reply(
         &mut self,
         said: &str,
-        question: &RoomQuestion,
+        mut question: RoomQuestion,
         (planner, person, watcher): (&mut dyn Planner, &mut dyn Person, &mut dyn DialogueObserver),
         driver: &mut dyn Driver,
         from: Time,
     ) -> (Outcome, Time) {
         let run = self.next_run();
         let mut now = driver.begin_run(from, &run, None);
-        now = self.find_out(question, driver, now);
-        let mut answer = self.answer_here(question, driver, now);
-        if let (None, Some(request)) = (&answer, self.look_request(question)) {
-            let mut manager = DialogueManager::new(self, (planner, person, &mut *watcher), &request, now);
-            let end = match (question.topic, question.things.first()) {
-                (Topic::Location | Topic::Placed, Some(thing)) => manager.search(thing, driver),
-                _ => match manager.pursue(driver) {
-                    Outcome::Stopped => SearchEnd::Replaced(Outcome::Stopped),
-                    _ => SearchEnd::Missed,
+        now = self.find_out(&question, driver, now);
+        let mut answer = self.answer_here(&question, driver, now);
+        let look = self.look_for(&question, driver.capabilities().detections).filter(|_| answer.is_none());
+        if let Some(look) = look {
+            let request = match &look {
+                Look::For(thing) => format!("find the {thing}"),
+                Look::At(_, request, _) | Look::By(request) => request.clone(),
+            };
+            let mut manager =
+                DialogueManager::new(self, (&mut *planner, &mut *person, &mut *watcher), &request, now);
+            let end = match &look {
+                Look::For(thing) => manager.search(thing, driver),
+                Look::At(..) | Look::By(_) => match manager.pursue(driver) {
+                    Outcome::Done => SearchEnd::Missed,
+                    outcome => SearchEnd::Replaced(outcome),
                 },
             };
             now = manager.now;
             if let SearchEnd::Replaced(outcome) = end {
                 return (outcome, now);
             }
+            self.look_around(driver, now);
+            if let Look::At(place, _, after) = look {
+                self.known.looked_at.push(place);
+                if let Some(request) = after {
+                    let mut manager =
+                        DialogueManager::new(self, (planner, person, &mut *watcher), &request, now);
+                    let outcome = manager.pursue(driver);
+                    now = manager.now;
+                    if outcome == Outcome::Stopped {
+                        return (outcome, now);
+                    }
+                }
+            }
             let run = self.next_run();
             now = driver.begin_run(now, &run, None);
-            now = self.find_out(question, driver, now);
-            let known = self.answer_here(question, driver, now);
-            answer = known.or_else(|| self.found_here(question).filter(|_| matches!(end, SearchEnd::Found)));
+            // What was seen may be what the words mean.
+            question = self.question(said).unwrap_or(question);
+            now = self.find_out(&question, driver, now);
+            let known = self.answer_here(&question, driver, now);
+            answer = known.or_else(|| self.found_here(&question).filter(|_| matches!(end, SearchEnd::Found)));
         }
         self.known.spoken_of.extend(question.things.iter().cloned());
         self.memory.asked(now, said, answer.as_deref());
         watcher.answered(said, answer.as_deref());
-        let unknown = || Problem { kind: Kind::NotFound, ..Problem::nothing(&unknown(question)) };
+        let unknown = || Problem { kind: Kind::NotFound, ..Problem::nothing(&self.unknown(&question)) };
         (answer.map_or_else(|| Outcome::Failed(unknown()), |_| Outcome::Done), now)
     }
 
-    /// Answer from what is known, or from what the driver sees now.
+    /// Answer from what is known, or from what the driver sees and where it stands now.
     fn answer_here(&self, question: &RoomQuestion, driver: &mut dyn Driver, now: Time) -> Option<String> {
-        if question.topic != Topic::View {
-            return self.known_answer(question, &self.known);
+        match question.topic {
+            Topic::View => {}
+            Topic::Reach => return self.reach(question, driver.base()),
+            Topic::Distance => return self.distance(question, driver.base()?),
+            _ => return self.known_answer(question, &self.known),
         }
         let scene = &self.known.seen_scene(&self.setting.scene);
         let mut seen: Vec<String> = Vec::new();
@@ -82,6 +135,78 @@ impl Conversation<'_> {
             self.known_answer(question, &self.known)
         } else {
             Some(format!("I see {}.", join(&seen)))
+        }
+    }
+
+    /// Answer by the feasibility of a motion to a thing, without one of the robot.
+    fn reach(&self, question: &RoomQuestion, base: Option<[f64; 3]>) -> Option<String> {
+        let scene = &self.known.scene(&self.setting.scene);
+        let thing = question.things.first()?;
+        let name = the(scene, thing);
+        // What is nowhere is looked for first.
+        let located = self.located(thing, &self.known)?;
+        if self.known.holding(scene).as_ref() == Some(thing) {
+            return Some(located);
+        }
+        let session = self.session(scene, &self.known, base);
+        let robot = &self.setting.robot;
+        let seen = seen(&session, robot, scene, std::slice::from_ref(thing), Duration::MAX).pop()?;
+        match seen.feasible {
+            Reachability::Yes => Some(format!("Yes, I can reach {name}.")),
+            Reachability::AsFarAsNumbersTell => {
+                Some(format!("Yes, I can reach {name}, as far as I can tell without a motion."))
+            }
+            Reachability::No(why) => Some(format!("No, I cannot reach {name}: {}.", in_words(&why, scene))),
+            Reachability::Hardly(why) => {
+                Some(format!("I find no way to reach {name}: {}.", in_words(&why, scene)))
+            }
+            Reachability::Unknown(_) => None,
+        }
+    }
+
+    /// Answer with the distance of a thing, or of its place, from the base at a pose.
+    fn distance(&self, question: &RoomQuestion, base: [f64; 3]) -> Option<String> {
+        let scene = &self.setting.scene;
+        let thing = question.things.first()?;
+        let located = self.located(thing, &self.known)?;
+        if self.known.holding(scene).as_ref() == Some(thing) {
+            return Some(located);
+        }
+        let (placed, _) = self.known.placed(scene, base)?;
+        let at = |id: &SmolStr| placed.entities.get(id)?.pose.map(|pose| pose.xyz);
+        let support = || at(&self.known.place_of(scene, thing)?.place);
+        let [x, y, _] = at(thing).or_else(support)?;
+        let away = (x - base[0]).hypot(y - base[1]);
+        let name = capital(&the(&placed, thing));
+        let is = if thing == entities::USER { "are" } else { "is" };
+        Some(format!("{name} {is} about {away:.1} m away."))
+    }
+
+    /// Answer of a robot that does not know, and that did not find out.
+    pub(super) fn unknown(&self, question: &RoomQuestion) -> String {
+        let scene = &self.known.seen_scene(&self.setting.scene);
+        let RoomQuestion { topic, things, place, said } = question;
+        let missed = self.known.missed.iter().rev().find(|one| things.contains(&one.thing));
+        let looked = missed.map_or_else(String::new, |one| {
+            format!(" I looked {} and did not see it.", at(scene, &one.place))
+        });
+        match topic {
+            Topic::Standing => "I do not know where I am.".to_owned(),
+            Topic::Contents => match place {
+                Some(place) => format!("I do not know what is {}.", at(scene, place)),
+                None => "I do not know.".to_owned(),
+            },
+            Topic::Open | Topic::Closed => {
+                let what = things.first().map_or_else(|| format!("the {said}"), |thing| the(scene, thing));
+                format!("I do not know if {what} is open.")
+            }
+            Topic::Location | Topic::Placed | Topic::Distance | Topic::Reach => match things.first() {
+                Some(thing) => format!("I do not know where {} is.{looked}", the(scene, thing)),
+                None if said.is_empty() => "I do not know what you mean.".to_owned(),
+                None => format!("I know of no {said} here."),
+            },
+            Topic::Held | Topic::Holds | Topic::Existence | Topic::Count => "I do not know.".to_owned(),
+            Topic::History | Topic::Activity | Topic::View | Topic::Seen => "I do not know.".to_owned(),
         }
     }
 
@@ -105,16 +230,42 @@ impl Conversation<'_> {
         after
     }
 
-    /// Request whose run may answer a question; `None` if no look helps.
-    fn look_request(&self, question: &RoomQuestion) -> Option<String> {
-        let thing = question.things.first()?;
-        let name = &self.known.seen_scene(&self.setting.scene).called(thing);
-        match question.topic {
-            Topic::Location | Topic::Placed => Some(format!("find the {name}")),
-            Topic::Open | Topic::Closed => Some(format!("go to the {name}")),
-            Topic::Standing | Topic::Held | Topic::Holds | Topic::Contents | Topic::Existence => None,
-            Topic::History | Topic::Activity | Topic::View => None,
+    /// Look that may answer a question; `None` if no look helps. What nobody told of is only seen where the
+    /// driver `sees` it.
+    fn look_for(&self, question: &RoomQuestion, sees: bool) -> Option<Look> {
+        let scene = &self.known.seen_scene(&self.setting.scene);
+        let place = question.place.as_ref();
+        let place = place.filter(|_| sees && matches!(question.topic, Topic::Contents | Topic::Placed));
+        if let Some(look) = place.and_then(|place| self.look_at(place, scene)) {
+            return Some(look);
         }
+        match question.topic {
+            Topic::Location | Topic::Placed | Topic::Distance | Topic::Reach => {
+                let said = Some(&question.said).filter(|said| sees && !said.is_empty());
+                question.things.first().cloned().or_else(|| said.map(SmolStr::from)).map(Look::For)
+            }
+            Topic::Open | Topic::Closed => {
+                let name = scene.called(question.things.first()?);
+                Some(Look::By(format!("go to the {name}")))
+            }
+            Topic::Standing | Topic::Held | Topic::Holds | Topic::Contents | Topic::Existence => None,
+            Topic::Count | Topic::History | Topic::Activity | Topic::View | Topic::Seen => None,
+        }
+    }
+
+    /// Look at everything on a surface or in a container. `None` where the hand is not free to open it.
+    fn look_at(&self, place: &SmolStr, scene: &Scene) -> Option<Look> {
+        let (kind, name) = (scene.entities.get(place)?.kind.as_str(), scene.called(place));
+        let is_shut = kind == kinds::CONTAINER && self.is_open(place, &self.known) != Some(true);
+        let has_been = self.known.looked_at.contains(place);
+        if has_been || !matches!(kind, kinds::SURFACE | kinds::CONTAINER) {
+            return None;
+        }
+        if !is_shut {
+            return Some(Look::At(place.clone(), format!("go to the {name}"), None));
+        }
+        let opens = Look::At(place.clone(), format!("open the {name}"), Some(format!("close the {name}")));
+        self.known.holding(scene).is_none().then_some(opens)
     }
 
     /// Answer after a look that found the thing, where no support is known.
@@ -140,9 +291,8 @@ impl Conversation<'_> {
     pub(super) fn known_answer(&self, question: &RoomQuestion, known: &Knowledge) -> Option<String> {
         let scene = &known.seen_scene(&self.setting.scene);
         let things = &question.things;
-        let place_of = |id: &SmolStr| {
-            let place = known.places(scene).into_iter().find(|one| one.thing == *id);
-            place.map(|one| (one.relation, one.place))
+        let is_at = |id: &SmolStr, place: &SmolStr| {
+            known.place_of(&self.setting.scene, id).is_some_and(|one| one.place == *place)
         };
         let held = known.holding(scene);
         match question.topic {
@@ -177,27 +327,43 @@ impl Conversation<'_> {
             }
             Topic::Placed => {
                 let wanted = question.place.as_ref()?;
-                if let Some(id) = things.iter().find(|id| place_of(id).is_some_and(|(_, at)| at == *wanted)) {
-                    return Some(format!("Yes, {} is {}.", the(scene, id), at(scene, wanted)));
+                if let Some(id) = things.iter().find(|id| is_at(id, wanted)) {
+                    return Some(format!("Yes, {}.", there(scene, id, wanted)));
                 }
                 let told: Option<Vec<String>> = things.iter().map(|id| self.located(id, known)).collect();
-                let told = told.filter(|told| !told.is_empty())?;
-                Some(format!("No. {}", told.join(" ")))
+                if let Some(told) = told.filter(|told| !told.is_empty()) {
+                    return Some(format!("No. {}", told.join(" ")));
+                }
+                let missed = |one: &ReportedLocation| one.place == *wanted && things.contains(&one.thing);
+                let has_looked = known.looked_at.contains(wanted) || known.missed.iter().any(missed);
+                let said = things.first().map_or_else(|| question.said.clone(), |id| scene.called(id));
+                has_looked.then(|| format!("No, I looked {} and saw no {said}.", at(scene, wanted)))
             }
             Topic::Contents => {
                 let wanted = question.place.as_ref()?;
-                let there = known.places(scene).into_iter().filter(|one| one.place == *wanted);
-                let there: Vec<String> = there
-                    .filter(|one| held.as_ref() != Some(&one.thing))
-                    .map(|one| the(scene, &one.thing))
-                    .collect();
+                let is_there = |one: &ReportedLocation| {
+                    one.place == *wanted && !known.missed.contains(one) && held.as_ref() != Some(&one.thing)
+                };
+                let there = known.places(&self.setting.scene).into_iter().filter(is_there);
+                let there: Vec<String> = there.map(|one| the(scene, &one.thing)).collect();
                 let at = at(scene, wanted);
-                Some(match there.as_slice() {
-                    [] => format!("I know of nothing {at}."),
-                    [only] => format!("{} is {at}.", capital(only)),
-                    several => format!("{} are {at}.", capital(&join(several))),
+                match there.as_slice() {
+                    [] if known.looked_at.contains(wanted) => Some(format!("I looked {at} and saw nothing.")),
+                    [] => None,
+                    [only] => Some(format!("{} is {at}.", capital(only))),
+                    several => Some(format!("{} are {at}.", capital(&join(several)))),
+                }
+            }
+            Topic::Count => {
+                let is_there = |id: &&SmolStr| question.place.as_ref().is_none_or(|place| is_at(id, place));
+                let counted: Vec<String> = things.iter().filter(is_there).map(|id| the(scene, id)).collect();
+                Some(match counted.len() {
+                    0 => "I know of none.".to_owned(),
+                    count => format!("I know of {count}: {}.", join(&counted)),
                 })
             }
+            // Who moves has no base from which these are asked.
+            Topic::Distance | Topic::Reach => None,
             Topic::Existence => Some(match things.as_slice() {
                 [] => format!("I know of no {} here.", question.said),
                 [first, ..] => {
@@ -207,13 +373,29 @@ impl Conversation<'_> {
             }),
             Topic::History => Some(self.history()),
             Topic::Activity => {
-                let doing: Vec<String> = self.memory.running().map(|step| step.call).collect();
-                let doing = doing.iter().map(|call| format!("`{call}`")).collect::<Vec<_>>();
+                let situation = RequestContext::new(scene);
+                let words = |call: &str| step_doing(parts(call).0, &parts(call).1, &situation);
+                let doing: Vec<String> = self.memory.running().map(|step| words(&step.call)).collect();
                 Some(if doing.is_empty() {
                     "I am doing nothing.".to_owned()
                 } else {
-                    format!("I am busy with {}.", join(&doing))
+                    format!("I am {}.", join(&doing))
                 })
+            }
+            Topic::Seen => {
+                let kind = |id: &SmolStr| scene.entities.get(id).map(|entity| entity.kind.as_str());
+                let seen = known.seen_so_far.iter().filter(|id| kind(id) == Some(kinds::OBJECT)).map(|id| {
+                    let place = known.place_of(&self.setting.scene, id).map(|one| one.place);
+                    let place = place.filter(|place| kind(place) != Some(kinds::PERSON));
+                    let at = place.map(|place| format!(" {}", at(scene, &place)));
+                    format!("{}{}", the(scene, id), at.unwrap_or_default())
+                });
+                let seen: Vec<String> = seen.collect();
+                let missed = known.missed.iter().map(|one| {
+                    format!(" I did not see {} {}.", the(scene, &one.thing), at(scene, &one.place))
+                });
+                let seen = if seen.is_empty() { "nothing".to_owned() } else { join(&seen) };
+                Some(format!("I have seen {seen}.{}", missed.collect::<String>()))
             }
             Topic::View => {
                 let is_visible = |entity: &&Entity| {
@@ -247,8 +429,8 @@ impl Conversation<'_> {
                 if id == entities::USER { "are" } else { "is" }
             ));
         }
-        let place = known.places(scene).into_iter().find(|one| one.thing == *id)?;
-        Some(format!("{name} is {}.", at(scene, &place.place)))
+        let place = known.place_of(&self.setting.scene, id)?;
+        Some(format!("{}.", capital(&there(scene, id, &place.place))))
     }
 
     /// Steps that were carried out, in words.
@@ -259,12 +441,14 @@ impl Conversation<'_> {
         for entry in self.memory.entries() {
             let MemoryEvent::Step { call, ended, .. } = &entry.what else { continue };
             let (primitive, args) = parts(call);
-            let said = step_done(primitive, &args, &situation);
-            match ended {
-                StepEnd::Success(_) => steps.push(said),
-                StepEnd::Failure { kind, .. } => steps.push(format!("tried `{call}`, which failed ({kind})")),
-                StepEnd::Interrupted(_) => steps.push(format!("began `{call}`")),
-            }
+            let doing = || step_doing(primitive, &args, &situation);
+            steps.push(match ended {
+                StepEnd::Success(_) => step_done(primitive, &args, &situation),
+                StepEnd::Failure { kind, .. } => {
+                    format!("tried {}, without success ({})", doing(), kind.replace('_', " "))
+                }
+                StepEnd::Interrupted(_) => format!("began {}", doing()),
+            });
         }
         let left_out = steps.len().saturating_sub(MAX_STEPS);
         let mut latest = steps.split_off(left_out);
@@ -305,4 +489,15 @@ fn the(scene: &Scene, id: &SmolStr) -> String {
 fn at(scene: &Scene, place: &SmolStr) -> String {
     let relation = scene.entities.get(place).map_or(fluents::ON, Entity::relation);
     format!("{relation} {}", the(scene, place))
+}
+
+/// Thing at a place as a sentence without its full stop: `the coke can is on the counter`, `you have the coke
+/// can`.
+fn there(scene: &Scene, thing: &SmolStr, place: &SmolStr) -> String {
+    let is_person = scene.entities.get(place).is_some_and(|entity| entity.kind == kinds::PERSON);
+    match (the(scene, thing), the(scene, place)) {
+        (thing, person) if is_person && place == entities::USER => format!("{person} have {thing}"),
+        (thing, person) if is_person => format!("{person} has {thing}"),
+        (thing, _) => format!("{thing} is {}", at(scene, place)),
+    }
 }

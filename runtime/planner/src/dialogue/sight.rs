@@ -3,6 +3,7 @@
 
 use indexmap::IndexMap;
 use motet_graph::Value;
+use motet_requests::ReportedLocation;
 use motet_robots::scene::{Entity, Scene};
 use motet_runtime::{Answer, Detection, Engine, Pattern, Query, ToldThing, Truth};
 use motet_stdlib::lang::{PLACING, fluents, kinds};
@@ -91,7 +92,23 @@ impl Knowledge {
             }
             self.facts.push((fact(fluents::LOCATED, [&entity.id]), Truth::True));
         }
+        for id in self.seen.in_view() {
+            self.missed.retain(|one| one.thing != *id);
+            if !self.seen_so_far.contains(id) {
+                self.seen_so_far.push(id.clone());
+            }
+        }
         news
+    }
+
+    /// Takes in that a thing was looked for where it was believed to be, and not seen there.
+    pub(super) fn miss(&mut self, scene: &Scene, thing: &SmolStr) {
+        self.missed.extend(self.place_of(scene, thing));
+    }
+
+    /// Known place of a thing; none where it was looked for and not seen.
+    pub(super) fn place_of(&self, scene: &Scene, thing: &SmolStr) -> Option<ReportedLocation> {
+        self.places(scene).into_iter().find(|one| one.thing == *thing && !self.missed.contains(one))
     }
 
     /// Relation and place of a thing in view, as it was seen there.
