@@ -5,6 +5,7 @@ pub mod bench;
 pub mod dialogue;
 pub mod dynamic;
 pub mod few_shot;
+pub mod mended;
 pub mod mutations;
 pub mod outcome;
 pub mod physics;

@@ -17,7 +17,9 @@
 //!   with `--driver`, `--jobs` and `--only` as above. It exits with 0 if no run ends as done without its
 //!   goal.
 //! - `mutations` takes no file: it changes the examples, and exits with 0 if at most 2 % of what the check
-//!   passes without a word fails by a need that was not listed.
+//!   passes without a word fails by a need that was not listed. With `--fix` or `--unsafe-fixes` it mends
+//!   what the check refuses, as `motet check` does, and exits with 0 if at least 85 % of what is mended ends
+//!   as done with its goal.
 //! - `soundness N|FILE… [--seed S]` makes N random policies, or takes those of documents that declare a
 //!   domain, runs what the check accepts in random worlds, and exits with 0 if every need that is proven, or
 //!   that a guard has passed, holds.
@@ -36,11 +38,14 @@ use std::io::Write as _;
 use std::path::Path;
 use std::process::ExitCode;
 
+use motet::document::MAX_FIXES;
+use motet_compiler::fix::FixLimits;
 use motet_eval::bench::{Bench, DriverKind};
+use motet_eval::mended::MendedMutant;
 use motet_eval::planners::PlannerKind;
 use motet_eval::saycan::planned;
 use motet_eval::{
-    Judged, KeptResults, Workers, dialogue, dynamic, mutations, physics, planbench, repairs, saycan,
+    Judged, KeptResults, Workers, dialogue, dynamic, mended, mutations, physics, planbench, repairs, saycan,
     scenarios, soundness, summary, tasks, world,
 };
 
@@ -87,6 +92,7 @@ struct Flags {
     every: Option<usize>,
     seed: Option<u64>,
     shows_refusals: bool,
+    fixes: Option<FixLimits>,
     has_pictures: bool,
     only: Vec<String>,
     words: Vec<String>,
@@ -100,6 +106,8 @@ impl Flags {
             match arg.as_str() {
                 "--json" => flags.only_json = true,
                 "--refusals" => flags.shows_refusals = true,
+                "--fix" => flags.fixes = Some(FixLimits::safe(MAX_FIXES)),
+                "--unsafe-fixes" => flags.fixes = Some(FixLimits::all(MAX_FIXES)),
                 "--planned" => flags.is_planned = true,
                 "--pictures" => flags.has_pictures = true,
                 "--world" => flags.world = Some(value()?),
@@ -198,7 +206,7 @@ fn usage() -> String {
          dynamic NUMBER [TRIALS]\n  \
          tasks [FILE…] [--trials N] [TRIALS]\n  \
          world NUMBER [TRIALS]\n  \
-         mutations\n  \
+         mutations [--fix|--unsafe-fixes]\n  \
          soundness NUMBER|FILE… [--seed S] [--refusals]\n  \
          physics --robot NAME [--scene S] [--kind K] [--profile P] [--seeds N]\n  \
          reach [SCENE|--rooms N --seed S]   (`eval reach --help`)\n\n\
@@ -254,9 +262,16 @@ fn run() -> Result<bool, String> {
         _ => {}
     }
     if words == ["mutations"] {
-        return shown(&mutated(flags.workers)?, only_json);
+        let report = match flags.fixes {
+            Some(limits) => mended(flags.workers, limits)?,
+            None => mutated(flags.workers)?,
+        };
+        return shown(&report, only_json);
     }
     let [name, file] = words.as_slice() else { return Err(usage()) };
+    if flags.fixes.is_some() {
+        return Err(usage());
+    }
     let known = SUITES.iter().find(|(known, _)| known == name);
     let suite = match (known, is_planned) {
         (Some(("saycan", _)), true) => planned_from_text,
@@ -381,6 +396,17 @@ fn mutated(workers: Workers) -> Result<Report, String> {
     Ok(Report {
         lines: notes.collect(),
         is_good: sums.unlisted * 50 <= sums.silent,
+        summary: serde_json::to_value(sums).map_err(|error| error.to_string())?,
+    })
+}
+
+fn mended(workers: Workers, limits: FixLimits) -> Result<Report, String> {
+    let bench = Bench { workers, ..Bench::ideal() };
+    let all = mended::mend(&bench, mutations::mutants(Path::new(EXAMPLES))?, limits)?;
+    let sums = mended::sums(&all);
+    Ok(Report {
+        lines: all.iter().map(MendedMutant::line).collect(),
+        is_good: sums.done * 100 >= sums.mended * 85,
         summary: serde_json::to_value(sums).map_err(|error| error.to_string())?,
     })
 }

@@ -174,10 +174,10 @@ fn blocks(value: &Value, at: String, found: &mut Vec<(String, usize)>) {
 }
 
 /// A robot in a scene, with its session.
-struct Setting {
+pub(crate) struct Setting {
     robot: Robot,
     scene: Scene,
-    session: Session,
+    pub(crate) session: Session,
 }
 
 /// Checks mutants, and runs in simulation what passes without an error or a warning.
@@ -186,18 +186,24 @@ struct Setting {
 ///
 /// A mutant names a robot or a scene that is not built in.
 pub fn judge(workers: Workers, mutants: Vec<Mutant>, seed: u64) -> Result<Vec<(Mutant, MutantEnd)>, String> {
-    let mut settings: IndexMap<(String, String), Setting> = IndexMap::new();
-    for mutant in &mutants {
-        let key = (mutant.robot.clone(), mutant.scene.clone());
-        if !settings.contains_key(&key) {
-            settings.insert(key, setting(&mutant.robot, &mutant.scene)?);
-        }
-    }
+    let settings = settings(&mutants)?;
     Ok(workers.spread(mutants, |mutant| {
         let setting = settings.get(&(mutant.robot.clone(), mutant.scene.clone()));
         let end = setting.map_or(MutantEnd::Refused, |setting| setting.judge(&mutant, seed));
         (mutant, end)
     }))
+}
+
+/// Settings of mutants by the names of robot and scene.
+pub(crate) fn settings(mutants: &[Mutant]) -> Result<IndexMap<(String, String), Setting>, String> {
+    let mut settings = IndexMap::new();
+    for mutant in mutants {
+        let key = (mutant.robot.clone(), mutant.scene.clone());
+        if !settings.contains_key(&key) {
+            settings.insert(key, setting(&mutant.robot, &mutant.scene)?);
+        }
+    }
+    Ok(settings)
 }
 
 fn setting(robot: &str, scene: &str) -> Result<Setting, String> {

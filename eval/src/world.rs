@@ -20,6 +20,7 @@ use motet_syntax::{FileId, Source, Sources};
 use serde::{Deserialize, Serialize};
 
 use crate::bench::{Bench, TrialRobot};
+use crate::mutations::Mutant;
 use crate::outcome::{FailureSort, StepFailures};
 use crate::{dialogue, mutations, setup};
 
@@ -128,7 +129,13 @@ impl Person for Patient {
 }
 
 impl WorldRun {
-    fn carry_out(self, bench: &Bench) -> Result<WorldEnd, String> {
+    /// Run of a changed example with a seed.
+    pub(crate) fn of_mutant(mutant: &Mutant, seed: u64) -> Self {
+        let Mutant { name, text, robot, scene } = mutant.clone();
+        Self { name, robot, scene, seed, work: Work::Policy(text) }
+    }
+
+    pub(crate) fn carry_out(self, bench: &Bench) -> Result<WorldEnd, String> {
         let mut seen = Failures::default();
         let (is_done, is_true) = match (&self.work, builtin::robot(&self.robot), builtin::scene(&self.scene))
         {

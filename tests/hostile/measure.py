@@ -24,6 +24,7 @@ KINDS = {
     "json": (4_000_000, {"p.json": "%s"}, ["check", "p.json", *KITCHEN]),
     "jsonl": (4_000_000, {"p.jsonl": "%s"}, ["check", "p.jsonl", *KITCHEN]),
     "text": (4_000_000, {"p.motet": "%s"}, ["check", "p.motet", *KITCHEN]),
+    "alone": (4_000_000, {"p.motet": "%s"}, ["check", "p.motet"]),
     "policy": (4_000_000, {"p.motet": "policy p { %s }"}, ["check", "p.motet", *KITCHEN]),
     "reply": (32_000, {"p.motet": "policy p { %s }"}, ["check", "p.motet", *KITCHEN]),
     "domain": (4_000_000, {"d.motet": "%s", "p.motet": WAIT},

@@ -10,6 +10,7 @@
 mod actions;
 mod dialogue;
 mod dynamic;
+mod mended;
 mod mutations;
 mod planbench;
 mod saycan;
