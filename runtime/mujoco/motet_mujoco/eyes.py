@@ -385,6 +385,13 @@ class Eyes:
         return {thing for thing, entity in things.items() if painted(entity, one["label"])
                 and np.max(one["extent"]) < PARTLY * np.max(extent(entity))}
 
+    def cut_off(self, wanted):
+        """Places of detections without an id that may be things of some ids, of which the rim of a picture cuts off the
+        rest."""
+        things = [self.beliefs.entities[thing] for thing in wanted if thing in self.beliefs.things()]
+        return [one["pose"]["xyz"] for one in self.last if one["id"] is None and any(
+            painted(entity, one["label"]) and np.max(one["extent"]) < 1.1 * np.max(extent(entity)) for entity in things)]
+
     def is_part(self, one, taken):
         """True for a detection that is a part of a thing of which another part was recognised, as where something
         stands before its middle."""

@@ -3,15 +3,13 @@
 A task that is not resumed holds still, since the targets stay where they are.
 """
 
-import itertools
-
 import numpy as np
 
 from .camera import NoGraphics
-from .eyes import extent
 from .jaw import FEELS_AT, aside, shifted, spared
 from .motion import near_turn, phases
-from .moving import INSIDE, POSTURES, SPARE, THINKS, Failed, Motion, Mover
+from .looking import Looker
+from .moving import POSTURES, SPARE, THINKS, Failed, Motion
 from .observation import AT_PLACE
 from .planner import quoted, stand_at
 from .world import OPENED
@@ -21,14 +19,10 @@ ARMLESS = ("say", "ask", "choose", "wake_up")
 ANYWHERE = ("home", "start_pose", "detect", "detect_all", "locate", "ground", "inspect")
 # Distance in m from a thing up to which a given point counts as being at it.
 NEAR_GRASP = 0.05
+# Way in m of the base on which it leaves what pressed on the robot as a drive began.
+LEAVES = 0.1
 # Distance in m that a handle moves in the hand at least where its drawer or door is not locked.
 GIVES = 0.04
-# Distance in m of the base from a thing up to which it looks for a better place to see it.
-ABOUT_HERE = 2.0
-# How often a camera on the hand is turned at most so that the hand does not hide a thing.
-AIMS = 2
-# Seconds that a look takes once the camera stands still.
-LOOKS = 0.5
 # Distances in m, beyond that of a drive to a person, from which the hand may hold something out, and turns in rad of the
 # base there. Nearer than a drive leads the base comes last: policies keep a distance from people.
 OFFERS, TURNED = (0.0, 0.15, -0.05, -0.1), (0.0, 0.6, -0.6, 1.2, -1.2)
@@ -38,12 +32,12 @@ class Felt(Exception):
     """The hand has felt a thing."""
 
 
-class Tasks(Mover):
+class Tasks(Looker):
     """Carries out commands in a world."""
 
     def __init__(self, world, observer, beliefs, planner, eyes, options):
-        super().__init__(world, observer, beliefs, planner, options)
-        self.eyes, self.said = eyes, []
+        super().__init__(world, observer, beliefs, planner, eyes, options)
+        self.said = []
         self.news = []  # detections that the host has not been told of yet
         self.answers = list(options.answers)
         self.answered = lambda: None  # called when a person has answered
@@ -116,9 +110,16 @@ class Tasks(Mover):
             last = path.strokes[-1].points[-1] = path.strokes[-1].points[-1].copy()
             last[:2] += self.options.chance.error(self.options.rates["base"]["error_m"], "base")
 
+        begun, left = self.world.base(), list(self.world.bumps())
+
+        def is_leaving():
+            """True where the base is still about to leave what pressed on the robot as it began."""
+            is_near = np.hypot(*(self.world.base() - begun)[:2]) < LEAVES
+            return is_near and all(any(np.linalg.norm(at - one) < LEAVES for one in left) for at in self.world.bumps())
+
         def watch():
             met = self.room.bumped(held)
-            if met is not None and met != to:
+            if met is not None and met != to and not is_leaving():
                 raise Failed("blocked", "%s is in the way" % met)
 
         yield from self.follow(path, watch=watch)
@@ -284,13 +285,6 @@ class Tasks(Mover):
             self.beliefs.forget(thing)
             raise Failed("slipped", "%s does not rest on %s" % (thing, on))
 
-    def glance(self):
-        """Looks at what is in view, if the robot can see."""
-        try:
-            self.eyes.refresh()
-        except NoGraphics:
-            return
-
     def do_handover(self, args, motion):
         world = self.world
         thing, person = entity(args["object"]), entity(args["to"])
@@ -351,21 +345,27 @@ class Tasks(Mover):
                     self.trail.clear()
                     continue
                 yield from self.follow(self.path(part, motion), what)
-        far, whole = drawn or (1.0, 1.0)
+        far, whole, is_felt = drawn or (1.0, 1.0, True)
         is_open = world.is_open(what) if self.beliefs.oracle else opens if far >= OPENED * whole else None
         # After a motion that failed, only a look tells how far it came.
         self.beliefs.opened(what, is_open)
         if not any(phase == "release" for phase, _ in parts) and any(phase == "grip" for phase, _ in parts):
             yield from self.grip(False, 0.6)
             yield from self.straight(-0.08 * world.tip()[1][:, 2], motion)
-        yield from self.home_again(begun, motion)
+        # The base drives on once it is known how far the leaf stands in its way.
+        is_folded = yield from self.folded_again(begun, motion)
         self.glance()
         is_open = self.room.is_open(what)
+        if is_folded and is_open is not None:
+            yield from self.stand(self.leaves(motion, begun), motion)
+            self.glance()
+            is_open = self.room.is_open(what)
         if is_open is opens:
             if opens and motion.leaves is None:
                 yield from self.face(what, motion)
             return
-        if self.beliefs.oracle and world.is_locked(what) or not self.beliefs.oracle and opens and far < GIVES:
+        is_stuck = world.is_locked(what) if self.beliefs.oracle else opens and is_felt and far < GIVES
+        if is_stuck:
             self.beliefs.locked(what)
             raise Failed("blocked", "%s does not give way: it is locked" % what)
         if is_open is None:
@@ -373,10 +373,10 @@ class Tasks(Mover):
         raise Failed("slipped" if opens else "blocked", "%s is %s" % (what, "open" if is_open else "closed"))
 
     def drawing(self, part):
-        """How far the hand has drawn a handle, in m, and how far it is to, as a list that fills; and a check that fills
-        it. The fingers feel the handle as long as they do not close on nothing."""
+        """How far the hand has drawn a handle, in m, how far it is to, and whether it had the handle at all, as a list
+        that fills; and a check that fills it. The fingers feel the handle as long as they do not close on nothing."""
         begin, end = self.world.tip()[0], self.frame(part[-1])[0]
-        drawn = [0.0, float(np.linalg.norm(end - self.frame(part[0])[0]))]
+        drawn = [0.0, float(np.linalg.norm(end - self.frame(part[0])[0])), self.world.is_gripping()]
 
         def watch():
             if self.world.is_gripping():
@@ -393,109 +393,6 @@ class Tasks(Mover):
 
     # Looking.
 
-    def look(self, one, motion, place=None):
-        """Turns the camera to an entity, or to where it may be. What is hidden from here is looked at from another
-        place. Fails with `not_found` where it does not come into view."""
-        query = "look(%s)" % quoted(one)
-        try:
-            path = yield from self.motion(motion, query, "not_found", self.supposing(one, place))
-        except Failed:
-            spot = self.beliefs.entities[one].get("pose", {}).get("xyz") if place is None else place
-            if spot is None or not self.may_show(one, spot):
-                raise
-            if not (yield from self.around(query, one, place, spot, motion)):
-                raise
-            path = yield from self.motion(motion.part(), query, "not_found", self.supposing(one, place))
-        yield from self.follow(path)
-        yield from self.uncover(one, place, motion)
-        yield from self.pause(0.1)
-
-    def uncover(self, one, place, motion):
-        """Turns a camera on the hand so that the hand does not hide where an entity should be, if there is time
-        for that."""
-        if one not in self.beliefs.things():
-            return
-        known = self.beliefs.entities[one]
-        middle = known.get("pose", {}).get("xyz") if place is None else place
-        if middle is None:
-            return
-        signs = np.array(list(itertools.product((-1.0, 1.0), repeat=3)))
-        corners = np.array(middle) + signs * extent(known) / 2.0
-        for _ in range(AIMS):
-            found = self.eyes.aside(corners)
-            if found is None:
-                return
-            eye, turn = found
-            tip, rotation = self.world.tip()
-            at, qpos = eye + turn @ (tip - eye), self.world.data.qpos
-            target = self.world.reacher.solve(qpos, self.goal, at, turn @ rotation)
-            if target is None:
-                return
-            for grip in self.world.model.grips:
-                target[grip] = self.goal[grip]
-            path = self.path([self.goal.copy(), target], motion)
-            if self.world.now + path.end > motion.until - LOOKS or not self.is_way(self.goal, target):
-                return
-            try:
-                yield from self.follow(path)
-            except Failed:
-                # What shows from here is looked at.
-                return
-            yield from self.pause(0.1)
-
-    def may_show(self, one, spot):
-        """True if another place near might show an entity: it is about here, and not shut in."""
-        supports = self.room.supports(one) if one in self.beliefs.things() else []
-        is_shut = any(self.room.is_open(support) is False for support in supports)
-        return not is_shut and bool(np.hypot(*(self.world.base()[:2] - np.array(spot[:2]))) <= ABOUT_HERE)
-
-    def seen(self, wanted, motion):
-        """Ids of the entities, of some, that the camera sees now or after it has turned to where they should be: by the
-        motion that was sent, where the robot stands at its beginning."""
-        path = self.sent(motion)
-        if path is not None:
-            try:
-                yield from self.follow(path)
-            except Failed:
-                # What shows from here is looked at.
-                pass
-        try:
-            found = self.eyes.known(wanted)
-        except NoGraphics as error:
-            raise Failed("not_found", str(error)) from None
-        for one in wanted:
-            if one in found or one not in self.beliefs.entities:
-                continue
-            has_looked = False
-            for place in self.beliefs.supposed(one) or [None]:
-                try:
-                    yield from self.look(one, motion if path is None and len(wanted) == 1 else motion.part(), place)
-                except Failed:
-                    continue
-                has_looked = True
-                found |= self.eyes.known(wanted)
-                if one in found:
-                    break
-            if has_looked and one not in found and one in self.beliefs.things() and one not in self.beliefs.in_hand():
-                # It is not where it should be: anything alike in view is it.
-                self.beliefs.forget(one)
-                self.eyes.at = -1.0
-                found |= self.eyes.known(wanted)
-        return [one for one in wanted if one in found]
-
-    def seen_at(self, place, wanted, motion):
-        """Ids of the entities, of some, that the camera sees when it looks at a place as a whole."""
-        kind = self.beliefs.entities.get(place, {}).get("kind")
-        if not wanted or kind not in ("Surface", "Container") or place not in self.world.model.body_of:
-            return []
-        for spot in self.beliefs.places(place, kind == "Container", 0.05)[:1]:
-            try:
-                yield from self.look(INSIDE, motion.part(), spot)
-            except Failed:
-                return []
-        seen = self.eyes.known(wanted)
-        return [one for one in wanted if one in seen]
-
     def objects(self, what):
         """Objects that a description fits."""
         known = self.beliefs.entities
@@ -503,7 +400,8 @@ class Tasks(Mover):
                 ("Surface", "Container", "Person", "Place", "Zone")]
 
     def do_detect(self, args, motion):
-        found = yield from self.seen(self.objects(args["what"]["text"]), motion)
+        wanted = self.objects(args["what"]["text"])
+        found = (yield from self.seen(wanted, motion)) or (yield from self.seen_about(wanted, motion))
         yield from self.pause(0.3)
         if not found:
             raise Failed("not_found", "nothing in view is called %s" % args["what"]["text"])
@@ -547,7 +445,7 @@ class Tasks(Mover):
 
     def do_locate(self, args, motion):
         one = entity(args["object"])
-        found = yield from self.seen([one], motion)
+        found = (yield from self.seen([one], motion)) or (yield from self.seen_about([one], motion))
         if not found:
             raise Failed("not_found", "%s is not in view" % one)
         seen = self.eyes.pose(one)
@@ -564,7 +462,7 @@ class Tasks(Mover):
     def do_inspect(self, args, motion):
         one = entity(args["what"])
         if one in self.world.model.body_of:
-            found = yield from self.seen([one], motion)
+            found = (yield from self.seen([one], motion)) or (yield from self.seen_about([one], motion))
             if not found:
                 raise Failed("not_found", "%s is not in view" % one)
         self.observer.own.moved.add(one)

@@ -6,9 +6,10 @@ from motet_mujoco.beliefs import Beliefs
 from motet_mujoco.chance import profile
 from motet_mujoco.driver import Driver, Options
 from motet_mujoco.judge import SCENES, carry_out, verdicts
+from motet_mujoco.looking import ASIDE
 from motet_mujoco.model import load
 from motet_mujoco.motion import CHECKED, timed
-from motet_mujoco.moving import ASIDE, Motion
+from motet_mujoco.moving import Motion
 from motet_mujoco.world import World
 
 

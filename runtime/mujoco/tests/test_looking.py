@@ -1,0 +1,45 @@
+"""Looks for what may be anywhere: at places about the robot, from where they show."""
+
+import copy
+
+import numpy as np
+import pytest
+from host import entity, placed, text
+from motet_mujoco.begin import begun, model_of, told_apart
+from motet_mujoco.chance import profile
+from motet_mujoco.driver import Driver, Options
+from motet_mujoco.model import load
+
+
+def driver_of(motet, facts, forgotten):
+    """A driver of a kitchen in which facts hold, whose robot was not told where a thing is."""
+    scene = begun(load("hsr", "kitchen", motet).scene, facts, None)
+    told = copy.deepcopy(scene)
+    for one in told["entities"]:
+        if one["id"] == forgotten:
+            for key in ("pose", "on", "in"):
+                one.pop(key, None)
+    real, told = told_apart(model_of("hsr", scene, motet), told, motet)
+    driver = Driver(real, motet, Options(profile("ideal")), told=told)
+    driver.hello({"protocol": 2, "run": "test"})
+    return driver
+
+
+@pytest.mark.parametrize(("facts", "thing", "base"), [
+    ([("open", ["fridge_1"], True), ("in", ["coke", "fridge_1"], True)], "coke", [0.355, -0.724, -2.356]),
+    ([], "bottle", [0.55, -1.35, -0.7]),
+])
+@pytest.mark.parametrize("primitive", ["inspect", "detect"])
+def test_a_thing_that_may_be_anywhere_is_looked_for_about_the_robot(motet, facts, thing, base, primitive):
+    """The side of the refrigerator hides what is in it from there, and the counter is beside the robot."""
+    driver = driver_of(motet, facts, thing)
+    driver.tasks.goal[:] = driver.world.target = placed(driver.world, base, 0.0)
+    driver.world.refresh()
+    args = {"inspect": ("what", entity(thing)), "detect": ("what", text(thing))}[primitive]
+    driver.start({"goal": 1, "command": {"primitive": primitive, "args": [args], "deadline_secs": 5.0}})
+    while driver.goals[1].state == "running":
+        driver.tick()
+    assert "success" in driver.goals[1].state["ended"]
+    assert driver.world.now < 5.0
+    seen = np.array(driver.beliefs.entities[thing]["pose"]["xyz"])
+    assert np.linalg.norm(seen - driver.world.pose(thing)[0]) < 0.02
