@@ -364,14 +364,18 @@ class Driver:
             self.report("moved", self.where())
 
     def where(self):
-        """Where everything is, as the report `moved` says it."""
+        """Where everything is, as the report `moved` says it: the robot, and each thing where it is believed to be. With
+        `--oracle` the robot knows where things are."""
         world, model = self.world, self.model
         values = world.data.qpos[model.control_qpos]
         base = ("base/x", "base/y", "base/yaw")
         joints = {joint: round(float(values[at]), 5) for joint, at in model.controls.items() if joint not in base}
         things = []
-        for thing in model.free:
-            position, (w, x, y, z) = world.pose(thing)
+        for thing in self.beliefs.things():
+            pose = self.observer.room.pose(thing)
+            if pose is None:
+                continue
+            position, (w, x, y, z) = pose
             things.append({"id": thing, "xyz": [round(float(part), 4) for part in position],
                            "quaternion": [round(float(part), 5) for part in (x, y, z, w)]})
         base = [round(float(part), 5) for part in world.base()]

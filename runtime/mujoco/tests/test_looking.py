@@ -1,25 +1,18 @@
 """Looks for what may be anywhere: at places about the robot, from where they show."""
 
-import copy
-
 import numpy as np
 import pytest
-from host import entity, placed, text
+from host import entity, forgotten, placed, text
 from motet_mujoco.begin import begun, model_of, told_apart
 from motet_mujoco.chance import profile
 from motet_mujoco.driver import Driver, Options
 from motet_mujoco.model import load
 
 
-def driver_of(motet, facts, forgotten):
+def driver_of(motet, facts, thing):
     """A driver of a kitchen in which facts hold, whose robot was not told where a thing is."""
     scene = begun(load("hsr", "kitchen", motet).scene, facts, None)
-    told = copy.deepcopy(scene)
-    for one in told["entities"]:
-        if one["id"] == forgotten:
-            for key in ("pose", "on", "in"):
-                one.pop(key, None)
-    real, told = told_apart(model_of("hsr", scene, motet), told, motet)
+    real, told = told_apart(model_of("hsr", scene, motet), forgotten(scene, thing), motet)
     driver = Driver(real, motet, Options(profile("ideal")), told=told)
     driver.hello({"protocol": 2, "run": "test"})
     return driver
