@@ -26,8 +26,9 @@ from .camera import NoGraphics
 from .chance import Chance, profile
 from .disorder import displace
 from .eyes import Eyes, extent
-from .judge import DEFAULT, SCENES, SLIPS, disturbed, follow, interval, quoted, carry_out, trials, verdicts
+from .judge import SLIPS, carry_out, disturbed, follow, interval
 from .model import Model, ModelError, find_motet, motet, save
+from .verdicts import DEFAULT, SCENES, quoted, trials, verdicts
 from .world import World
 
 
@@ -66,7 +67,7 @@ BACK = (0.0, 0.6, 1.2)
 
 def hands(command, robot, scene, kinds, rates, seeds, found):
     """Counts what slips, drops, falls short and sticks."""
-    for xml, query, witness in trials(command, robot, scene, kinds):
+    for _, xml, query, witness in trials(command, robot, scene, kinds):
         kind, thing = query.partition("(")[0], query.partition("(")[2].rstrip(")").replace("`", "")
         for seed in seeds:
             world, off = disturbed(xml, query, rates, Chance(seed))

@@ -17,6 +17,9 @@ TABLE = judge.SCENES["panda"][0]
     ("panda", TABLE, "reach(book)"),
     ("hsr", "kitchen", "pull(drawer_1)"),
     ("hsr", "kitchen", "go_to(counter)"),
+    ("hsr", "kitchen", "stand_at(pose(0.7 m, 1.8 m, 1 rad))"),
+    ("hsr", "kitchen", "posture(home)"),
+    ("hsr", "kitchen", "reach_at(mug_1, pose(1.98 m, 0.3 m, 0.79 m, 0 rad))"),
 ])
 def test_a_verdict_holds(motet, robot, scene, motion):
     [(query, witness)] = judge.verdicts(motet, robot, scene, motion)
@@ -91,3 +94,30 @@ def test_thing_held_at_the_start_is_put_down(motet, capsys):
     assert judge.main(["--robot", "panda", "--kind", "put", "--format", "json", "--motet", motet]) == 0
     share = json.loads(capsys.readouterr().out.splitlines()[-1])["shares"]["put"]
     assert share["held"] == share["of"] > 10
+
+
+def test_verdicts_about_people_and_cameras_hold(motet, capsys):
+    flags = ["--kind", "look", "--kind", "posture", "--kind", "offer", "--format", "json", "--motet", motet]
+    assert judge.main(["--robot", "hsr", "--scene", "living_room", *flags]) == 0
+    shares = json.loads(capsys.readouterr().out.splitlines()[-1])["shares"]
+    assert set(shares) == {"look", "posture", "offer"}
+    for share in shares.values():
+        assert share["held"] == share["of"] > 0
+
+
+def test_motions_begin_with_a_door_open_and_with_a_thing_in_the_hand(motet, capsys):
+    flags = ["--begin", "open", "--begin", "holding", "--kind", "push", "--kind", "posture", "--format", "json"]
+    assert judge.main(["--robot", "hsr", "--scene", "kitchen", *flags, "--motet", motet]) == 0
+    *trials, sums = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
+    assert all(one["holds"] for one in trials), trials
+    assert {one["scene"].partition(", ")[2].partition(" ")[0] for one in trials} >= {"holding"}
+    assert sums["shares"]["push"]["of"] > 0
+
+
+def test_a_camera_that_points_elsewhere_refutes_a_look(motet):
+    [(query, witness)] = judge.verdicts(motet, "hsr", "kitchen", "look(mug_1)")
+    world = World(load("hsr", "kitchen", motet))
+    for point in witness["path"]:
+        point["joints"]["head_pan_joint"] = 1.5
+    holds, why, _ = judge.carry_out(world, query, witness)
+    assert not holds and why == "out of view"
