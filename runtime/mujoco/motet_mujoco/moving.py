@@ -403,8 +403,6 @@ class Mover:
     def from_rest(self, task, motion, anywhere=False):
         """A task that begins with the arm at rest, or anywhere: where a motion ended on its way, the arm comes back
         first."""
-        if not anywhere:
-            yield from self.come_off(motion)
         if self.is_adrift and not anywhere:
             yield from self.fold(motion)
         begun, is_done = self.goal.copy(), False

@@ -58,6 +58,7 @@ class Tasks(Looker):
     # Moving.
 
     def do_go(self, args, motion):
+        yield from self.come_off(motion)
         to = entity(args["to"])
         about = self.about(to)
         if motion.witness is None and self.room.is_open(about) and (yield from self.face(about, motion)):
@@ -126,6 +127,7 @@ class Tasks(Looker):
         yield from self.pause(0.2)
 
     def do_go_to_pose(self, args, motion):
+        yield from self.come_off(motion)
         pose = args["to"]["pose"]
         x, y, _ = pose["xyz"]
         yaw = yaw_of(pose["quaternion"])
@@ -133,6 +135,7 @@ class Tasks(Looker):
         yield from self.drive(path, None)
 
     def do_turn(self, args, motion):
+        yield from self.come_off(motion)
         target = self.goal.copy()
         target[2] += number(args["by"])
         yield from self.drive(self.path([self.goal.copy(), target], motion), None)

@@ -121,3 +121,12 @@ def test_a_camera_that_points_elsewhere_refutes_a_look(motet):
         point["joints"]["head_pan_joint"] = 1.5
     holds, why, _ = judge.carry_out(world, query, witness)
     assert not holds and why == "out of view"
+
+
+@pytest.mark.parametrize(("thing", "other", "are_alike"), [
+    ("mug_1", "mug_2", True), ("mug_1", "glass_1", True), ("apple", "sponge", False), ("mug_1", "mug_1", False),
+    ("mug_1", None, False),
+])
+def test_things_that_a_look_may_confuse(motet, thing, other, are_alike):
+    entities = load("hsr", "kitchen", motet).entities
+    assert calibrate.alike(entities, thing, other) is are_alike
