@@ -135,8 +135,11 @@ class Looker(Mover):
                     yield from self.look(one, motion if path is None and len(wanted) == 1 else motion.part(), place)
                 except Failed:
                     continue
-                has_looked = True
                 found |= self.eyes.known(wanted)
+                if one not in found and self.is_adrift and self.eyes.is_covered(one):
+                    yield from self.fold(motion)
+                    found |= self.eyes.known(wanted)
+                has_looked |= not self.eyes.is_covered(one)
                 if one in found:
                     break
             if has_looked and one not in found and one in self.beliefs.things() and one not in self.beliefs.in_hand():
@@ -238,8 +241,8 @@ class Looker(Mover):
 
     def stands(self, spot, is_look):
         """Poses of the base around a spot: those from which the hand reaches it, the nearest directions first. For a
-        look also farther ones: first those with nothing between the spot and a camera above the base, the nearest places
-        first, and none where furniture is believed to stand."""
+        look also farther ones: first those with nothing between the spot and the camera, the nearest places first, and
+        none where furniture is believed to stand."""
         model, (x, y, yaw) = self.world.model, self.world.base()
         towards, offs = float(np.arctan2(y - spot[1], x - spot[0])), (*AROUND, *FARTHER) if is_look else AROUND
         found = []
@@ -253,11 +256,12 @@ class Looker(Mover):
         base = np.array([[*stand[:2], LOW] for stand in found])
         gaps = [one for one in (self.beliefs.gaps(fixed, base) for fixed in model.body_of) if one is not None]
         found = [stand for stand, gap in zip(found, np.min(gaps, axis=0)) if gap > model.card[0]]
-        room, high = self.beliefs.room(), self.eyes.eye()[2]
+        room, eye = self.beliefs.room(), self.eyes.eye()
+        ahead, left = rotated(eye[:2] - [x, y], -yaw)
 
         def rank(stand):
-            is_free = shows(model, room, np.array([*stand[:2], high]), np.array(spot), AT_SPOT)
-            return not is_free, np.hypot(stand[0] - x, stand[1] - y)
+            there = np.array([*(stand[:2] + rotated([ahead, left], stand[2])), eye[2]])
+            return not shows(model, room, there, np.array(spot), AT_SPOT), np.hypot(stand[0] - x, stand[1] - y)
 
         return sorted(found, key=rank)
 
@@ -292,6 +296,11 @@ class Looker(Mover):
             return False
         yield from self.follow(best)
         return True
+
+
+def rotated(way, angle):
+    """A way in the plane, turned by an angle."""
+    return np.array([way[0] * np.cos(angle) - way[1] * np.sin(angle), way[0] * np.sin(angle) + way[1] * np.cos(angle)])
 
 
 def driven(witness):

@@ -36,3 +36,30 @@ def test_a_thing_that_may_be_anywhere_is_looked_for_about_the_robot(motet, facts
     assert driver.world.now < 5.0
     seen = np.array(driver.beliefs.entities[thing]["pose"]["xyz"])
     assert np.linalg.norm(seen - driver.world.pose(thing)[0]) < 0.02
+
+
+def test_an_arm_that_hides_what_is_looked_at_folds_first(motet):
+    """The hand has let go of the mug and is still before it."""
+    driver = Driver(load("hsr", "kitchen", motet), motet, Options(profile("ideal")))
+    driver.hello({"protocol": 2, "run": "test"})
+
+    def begin(goal, primitive, **args):
+        command = {"primitive": primitive, "args": list(args.items()), "deadline_secs": 60.0}
+        driver.start({"goal": goal, "command": command})
+
+    def carry_out(goal, primitive, **args):
+        begin(goal, primitive, **args)
+        while driver.goals[goal].state == "running":
+            driver.tick()
+        return driver.goals[goal].state["ended"]
+
+    carry_out(1, "go", to=entity("mug_1"))
+    assert "success" in carry_out(2, "pick", object=entity("mug_1"))
+    carry_out(3, "go", to=entity("counter"))
+    begin(4, "place", object=entity("mug_1"), on=entity("counter"))
+    while driver.beliefs.hand is not None or not driver.eyes.is_covered("mug_1"):
+        assert driver.goals[4].state == "running", "the hand does not come before the mug"
+        driver.tick()
+    driver.cancel({"goal": 4})
+    assert "success" in carry_out(5, "inspect", what=entity("mug_1"))
+    assert driver.beliefs.entities["mug_1"]["on"] == "counter"
