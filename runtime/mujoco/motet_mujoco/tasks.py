@@ -344,7 +344,14 @@ class Tasks(Looker):
                     # The way here leads through what is opened or closed.
                     self.trail.clear()
                     drawn, watch = self.drawing(part)
-                    yield from self.follow(self.path(part, motion, 0.5), watch=watch)
+                    is_whole = False
+                    try:
+                        yield from self.follow(self.path(part, motion, 0.5), watch=watch)
+                        is_whole = True
+                    finally:
+                        if not is_whole:
+                            # It ended on its way: nobody knows how far it is open.
+                            self.beliefs.opened(what, None)
                     self.trail.clear()
                     continue
                 yield from self.follow(self.path(part, motion), what)

@@ -65,3 +65,17 @@ def test_the_robot_does_not_shut_the_door_that_it_opened(motet):
     assert "success" in driver.goals[1].state["ended"]
     assert driver.world.is_open("fridge_1")
     assert driver.beliefs.entities["fridge_1"]["open"] and not driver.beliefs.entities["fridge_1"]["locked"]
+
+
+def test_a_door_whose_motion_was_cancelled_is_neither_open_nor_closed(motet):
+    driver = Driver(load("hsr", "kitchen", motet), motet, Options(profile("ideal")))
+    driver.hello({"protocol": 2, "run": "test"})
+    driver.tasks.goal[:] = driver.world.target = placed(driver.world, [2.35, -1.6, -0.1], 0.0)
+    driver.world.refresh()
+    driver.eyes.news = lambda *_: []
+    driver.start({"goal": 1, "command": {"primitive": "open", "args": [["what", entity("drawer_1")]]}})
+    while driver.world.opening("drawer_1") < 0.3:
+        assert driver.goals[1].state == "running"
+        driver.tick()
+    driver.cancel({"goal": 1})
+    assert driver.tasks.room.is_open("drawer_1") is None
