@@ -36,7 +36,7 @@ ABOUT_HERE = 2.0
 AIMS = 2
 # How many things that look like a part of one that is sought are looked at once more.
 PARTS = 2
-# Seconds within which a camera turns to a place that is near.
+# Seconds within which a camera turns to a place that is near at full speed.
 TURNS_IN = 1.6
 # Seconds that a look takes once the camera stands still.
 LOOKS = 0.5
@@ -66,7 +66,7 @@ class Looker(Mover):
             spot = self.beliefs.entities[one].get("pose", {}).get("xyz") if place is None else place
             if spot is None or not self.may_show(one, spot):
                 raise
-            if not (yield from self.around(query, one, place, spot, motion, motion.until - TURNS_IN)):
+            if not (yield from self.around(query, one, place, spot, motion, motion.until - TURNS_IN * motion.stretch)):
                 raise
             path = yield from self.motion(motion.part(), query, "not_found", self.supposing(one, place))
         yield from self.follow(path)
@@ -159,7 +159,7 @@ class Looker(Mover):
         near = [place for place, gap in far.items() if gap is not None and gap <= ABOUT_HERE]
         # What stands open was most likely opened for this.
         for place in sorted(near, key=lambda place: (self.room.is_open(place) is not True, far[place])):
-            if self.world.now > motion.until - TURNS_IN:
+            if self.world.now > motion.until - TURNS_IN * motion.stretch:
                 return []
             found = yield from self.seen_at(place, lost, motion)
             if found:
@@ -177,7 +177,7 @@ class Looker(Mover):
             return []
         seen = set()
         for at, spot in enumerate(self.beliefs.spread(place, kind == "Container", 0.05)):
-            if at > 0 and self.world.now > motion.until - TURNS_IN:
+            if at > 0 and self.world.now > motion.until - TURNS_IN * motion.stretch:
                 break
             try:
                 yield from self.look(INSIDE, motion.part(), spot)
@@ -217,10 +217,14 @@ class Looker(Mover):
         return scene
 
     def face(self, container, motion):
-        """Drives to where the inside of an open container shows and is within reach, if it is not so here:
-        with a thing in the hand, to where the hand can put it in. True if the robot stands there then."""
-        place, query = self.beliefs.places(container, True, 0.05)[0], "look(%s)" % INSIDE
-        held = self.room.held()
+        """Drives to where the inside of an open container shows and is within reach, if it is not so here: the first
+        thing that is believed to lie there, or the bottom; with a thing in the hand, to where the hand can put it in.
+        True if the robot stands there then."""
+        query, held = "look(%s)" % INSIDE, self.room.held()
+        known = [one for one in self.beliefs.entities.values() if one.get("in") == container and "pose" in one]
+        place = self.beliefs.places(container, True, 0.05)[0]
+        if known and not held:
+            place = np.array(known[0]["pose"]["xyz"], dtype=float)
 
         def way(stand):
             return self.way_to_put(held[0], container, stand) if held else 0.0

@@ -63,3 +63,20 @@ def test_an_arm_that_hides_what_is_looked_at_folds_first(motet):
     driver.cancel({"goal": 4})
     assert "success" in carry_out(5, "inspect", what=entity("mug_1"))
     assert driver.beliefs.entities["mug_1"]["on"] == "counter"
+
+
+def test_a_drive_to_an_open_drawer_ends_where_what_lies_in_it_shows(motet):
+    """The side of the drawer hides the apple from where its middle shows."""
+    scene = begun(load("hsr", "kitchen", motet).scene, [("open", ["drawer_1"], True), ("in", ["apple", "drawer_1"], True)], None)
+    apple = next(one for one in scene["entities"] if one["id"] == "apple")
+    apple["pose"]["xyz"] = [3.09, -1.505, 0.598]
+    driver = Driver(model_of("hsr", scene, motet), motet, Options(profile("ideal")))
+    driver.hello({"protocol": 2, "run": "test"})
+    driver.tasks.goal[:] = driver.world.target = placed(driver.world, [2.2, -1.21, -1.54], 0.0)
+    driver.world.refresh()
+    for goal, (primitive, *args) in enumerate([("go", "to", "drawer_1"), ("inspect", "what", "apple")]):
+        command = {"primitive": primitive, "args": [[args[0], entity(args[1])]], "deadline_secs": 60.0 - 55.0 * goal}
+        driver.start({"goal": goal, "command": command})
+        while driver.goals[goal].state == "running":
+            driver.tick()
+        assert "success" in driver.goals[goal].state["ended"]
