@@ -227,18 +227,26 @@ def look(world, arguments, points, _witness, share):
 
 def shows(world, camera, one):
     """True if a camera as it is turned has in its picture, and in its range, a point of an entity that no furniture,
-    thing or person hides: its middle, or one on its axes."""
+    thing or person hides: its middle, or one of each of its parts."""
     model, data = world.model, world.data
-    at, (place, _), half = model.mj.camera(camera).id, world.pose(one), extent(model.entities[one]) / 2.0
+    at = model.mj.camera(camera).id
     eye, axes, high = data.cam_xpos[at], data.cam_xmat[at].reshape(3, 3), np.tan(np.radians(model.mj.cam_fovy[at]) / 2.0)
-    rotation = data.xmat[model.body_of[one]].reshape(3, 3)
-    for step in [np.zeros(3), *(OUT * half * np.vstack([np.eye(3), -np.eye(3)]))]:
-        point = place + rotation @ step
+    for point in points_of(world, one):
         x, y, z = axes.T @ (point - eye)
         is_framed = z < 0.0 and abs(y) <= -z * high and abs(x) <= -z * high * WIDTH / HEIGHT
         if is_framed and np.linalg.norm(point - eye) <= model.sight[camera][0] and first(model, data, eye, point) == one:
             return True
     return False
+
+
+def points_of(world, one):
+    """Points of an entity: its middle, and those on the axes of its shape and of its parts, such as its drawer."""
+    model, data, body = world.model, world.data, world.model.body_of[one]
+    steps = OUT * np.vstack([np.zeros(3), np.eye(3), -np.eye(3)])
+    yield from data.xpos[body] + steps * extent(model.entities[one]) / 2.0 @ data.xmat[body].reshape(3, 3).T
+    for geom in world.geoms(one):
+        rotation, box = data.geom_xmat[geom].reshape(3, 3), model.mj.geom_aabb[geom]
+        yield from data.geom_xpos[geom] + (box[:3] + steps * box[3:]) @ rotation.T
 
 
 def offer(world, arguments, points, _witness, share):
