@@ -29,7 +29,7 @@ from .jaw import FEELS_AT, spared
 from .model import Model, ModelError, find_motet
 from .motion import Path, frame_at, gentle, phases, rotation_vector, timed
 from .sight import first
-from .verdicts import BEGINNINGS, DEFAULT, SCENES, quoted, trials, verdicts
+from .verdicts import BEGINNINGS, DEFAULT, SCENES, trials
 from .world import World
 
 # Aims: shares that physics shall bear out.

@@ -8,9 +8,10 @@ from motet_mujoco.camera import NoGraphics
 from motet_mujoco.chance import profile
 from motet_mujoco.driver import Driver, Options
 from motet_mujoco.eyes import Eyes
-from motet_mujoco.judge import close, follow, verdicts
+from motet_mujoco.judge import close, follow
 from motet_mujoco.model import load
 from motet_mujoco.motion import phases
+from motet_mujoco.verdicts import verdicts
 from motet_mujoco.world import World
 
 

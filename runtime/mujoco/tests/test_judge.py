@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 from motet_mujoco import calibrate, judge
 from motet_mujoco.model import load
+from motet_mujoco.verdicts import SCENES, verdicts
 from motet_mujoco.world import World
 
-TABLE = judge.SCENES["panda"][0]
+TABLE = SCENES["panda"][0]
 
 
 @pytest.mark.parametrize("robot, scene, motion", [
@@ -22,7 +23,7 @@ TABLE = judge.SCENES["panda"][0]
     ("hsr", "kitchen", "reach_at(mug_1, pose(1.98 m, 0.3 m, 0.79 m, 0 rad))"),
 ])
 def test_a_verdict_holds(motet, robot, scene, motion):
-    [(query, witness)] = judge.verdicts(motet, robot, scene, motion)
+    [(query, witness)] = verdicts(motet, robot, scene, motion)
     holds, why, error = judge.carry_out(World(load(robot, scene, motet)), query, witness)
     assert holds, why
     # A witness is followed within 3 mm and 2 mrad, along the whole path and at its end.
@@ -32,7 +33,7 @@ def test_a_verdict_holds(motet, robot, scene, motion):
 
 def test_a_grip_beside_the_thing_is_refuted(motet):
     """The judge can say no: with the thing elsewhere, there is nothing to hold."""
-    [(query, witness)] = judge.verdicts(motet, "hsr", "kitchen", "reach(mug_1)")
+    [(query, witness)] = verdicts(motet, "hsr", "kitchen", "reach(mug_1)")
     world = World(load("hsr", "kitchen", motet))
     world.place("mug_1", world.pose("mug_1")[0] + [0.2, 0.0, 0.0])
     holds, why, _ = judge.carry_out(world, query, witness)
@@ -41,7 +42,7 @@ def test_a_grip_beside_the_thing_is_refuted(motet):
 
 def test_a_blocked_way_is_refuted(motet):
     """A person who stands in the way is touched."""
-    [(query, witness)] = judge.verdicts(motet, "hsr", "kitchen", "go_to(counter)")
+    [(query, witness)] = verdicts(motet, "hsr", "kitchen", "go_to(counter)")
     world = World(load("hsr", "kitchen", motet))
     middle = witness["path"][-1]["base"]
     world.data.mocap_pos[world.model.people["user"], :2] = middle[:2]
@@ -67,7 +68,7 @@ def test_trials_with_errors_have_seeds_and_intervals(motet, capsys):
 
 def test_held_thing_is_carried(motet):
     """A drive with what a grasp holds drops nothing, and one with nothing has nothing to drop."""
-    [(query, witness)] = judge.verdicts(motet, "hsr", "kitchen", "reach(apple)")
+    [(query, witness)] = verdicts(motet, "hsr", "kitchen", "reach(apple)")
     world = World(load("hsr", "kitchen", motet))
     assert judge.carry_out(world, query, witness)[0]
     assert calibrate.carried(world, "apple")
@@ -115,7 +116,7 @@ def test_motions_begin_with_a_door_open_and_with_a_thing_in_the_hand(motet, caps
 
 
 def test_a_camera_that_points_elsewhere_refutes_a_look(motet):
-    [(query, witness)] = judge.verdicts(motet, "hsr", "kitchen", "look(mug_1)")
+    [(query, witness)] = verdicts(motet, "hsr", "kitchen", "look(mug_1)")
     world = World(load("hsr", "kitchen", motet))
     for point in witness["path"]:
         point["joints"]["head_pan_joint"] = 1.5
