@@ -23,6 +23,8 @@ ELSEWHERE = 0.08
 SLACK = 0.04
 # Thickness in m of the bottom of a container.
 BOTTOM = 0.01
+# Length in m of a surface above which a view of its middle does not show its ends.
+WIDE = 1.0
 # Heights in m between two looks into a container.
 LAYER = 0.5
 
@@ -173,6 +175,17 @@ class Beliefs:
             model.body_of[support], [half])
         data = self.room()
         return [data.xpos[at] + data.xmat[at].reshape(3, 3) @ np.array([0.0, 0.0, z + up]) for z in heights]
+
+    def spread(self, support, is_inside, up=0.0):
+        """Places in or on something from which a camera sees all of it: its middle, and those towards the ends of what
+        is wider than a view from near."""
+        first, shape = self.places(support, is_inside, up)[0], self.entities[support].get("shape", {})
+        sides = np.array(shape.get("box", (0.0, 0.0, 0.0)), dtype=float) * (1.0, 1.0, 0.0)
+        along = np.where(sides == sides.max(), sides / 3.0, 0.0)
+        if is_inside or sides.max() <= WIDE:
+            return [first]
+        along = self.room().xmat[self.world.model.body_of[support]].reshape(3, 3) @ along
+        return [first, first + along, first - along]
 
     def saw(self, entity, position, quaternion=None):
         """Notes where something is."""

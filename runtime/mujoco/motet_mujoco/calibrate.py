@@ -9,6 +9,7 @@
 | `hand.short` | all feasible `put` |
 | `hand.stick` | all feasible `pull` and `push` |
 | `camera.miss` | looks by pixels at the things on a surface from where `go_to` leaves the robot, and from behind |
+| `camera.confuse` | those of them with something of the same class, category or colour in the picture: is it taken for the thing? |
 
 The errors of hand and camera, of the room and of friction are those of the profile. Each rate has its interval at 95 %.
 """
@@ -24,10 +25,12 @@ import numpy as np
 from .beliefs import Beliefs
 from .camera import NoGraphics
 from .chance import Chance, profile
+from .detector import COLOURS
 from .disorder import displace
 from .eyes import Eyes, extent
-from .judge import DEFAULT, SCENES, SLIPS, disturbed, follow, interval, quoted, carry_out, trials, verdicts
+from .judge import SLIPS, carry_out, disturbed, follow, interval
 from .model import Model, ModelError, find_motet, motet, save
+from .verdicts import DEFAULT, SCENES, quoted, trials, verdicts
 from .world import World
 
 
@@ -58,7 +61,7 @@ class Count:
 
 
 # Rates by the part of a calibration, and the motions of the trials.
-PARTS = {"grasp": ["hand.slip", "hand.drop"], "put": ["hand.short"], "door": ["hand.stick"], "camera": ["camera.miss"]}
+PARTS = {"grasp": ["hand.slip", "hand.drop"], "put": ["hand.short"], "door": ["hand.stick"], "camera": ["camera.miss", "camera.confuse"]}
 KINDS = {"grasp": {"reach"}, "put": {"put"}, "door": {"pull", "push"}}
 # Distances in m behind the place from which a thing is taken, where it is looked at.
 BACK = (0.0, 0.6, 1.2)
@@ -66,7 +69,7 @@ BACK = (0.0, 0.6, 1.2)
 
 def hands(command, robot, scene, kinds, rates, seeds, found):
     """Counts what slips, drops, falls short and sticks."""
-    for xml, query, witness in trials(command, robot, scene, kinds):
+    for _, xml, query, witness in trials(command, robot, scene, kinds):
         kind, thing = query.partition("(")[0], query.partition("(")[2].rstrip(")").replace("`", "")
         for seed in seeds:
             world, off = disturbed(xml, query, rates, Chance(seed))
@@ -134,8 +137,23 @@ def look(world, thing, witness, rates, chance, found):
         found["camera.miss"].add(not seen, off / far if seen else None)
         # As a look at 10 cm from 1 m would be, which the rate of a profile is of.
         found["camera.miss"].looks += far * 0.1 / float(np.max(extent(world.model.entities[thing])))
+        if any(alike(world.model.entities, thing, one["id"]) for one in eyes.last):
+            taken = seen and min(world.model.free, key=lambda one: np.linalg.norm(
+                world.pose(one)[0] - seen[0]["pose"]["xyz"]))
+            found["camera.confuse"].add(bool(seen) and taken != thing)
     finally:
         eyes.close()
+
+
+def alike(entities, thing, other):
+    """True if another known thing is of the class, of a category or of the colour of a thing."""
+    if other is None or other == thing:
+        return False
+    one, other = entities[thing], entities.get(other, {})
+    sorts = [{part.get("class"), *part.get("categories", [])} - {None} for part in (one, other)]
+    words = [set(" ".join([*part.get("names", []), part.get("id", "")]).lower().replace("_", " ").split()) & set(COLOURS)
+             for part in (one, other)]
+    return bool(sorts[0] & sorts[1] or words[0] & words[1])
 
 
 def main(arguments=None):

@@ -368,15 +368,20 @@ class Driver:
             self.report("moved", self.where())
 
     def where(self):
-        """Where everything is, as the report `moved` says it."""
+        """Where everything is, as the report `moved` says it: the robot, and each thing where it is believed to be. With
+        `--oracle` the robot knows where things are."""
         world, model = self.world, self.model
         values = world.data.qpos[model.control_qpos].round(5).tolist()
         base = ("base/x", "base/y", "base/yaw")
         joints = {joint: values[at] for joint, at in model.controls.items() if joint not in base}
-        bodies = [model.body_of[thing] for thing in model.free]
-        places, turns = world.data.xpos[bodies].round(4).tolist(), world.data.xquat[bodies].round(5).tolist()
-        things = [{"id": thing, "xyz": place, "quaternion": [x, y, z, w]}
-                  for thing, place, (w, x, y, z) in zip(model.free, places, turns)]
+        things = []
+        for thing in self.beliefs.things():
+            pose = self.observer.room.pose(thing)
+            if pose is None:
+                continue
+            position, (w, x, y, z) = pose
+            things.append({"id": thing, "xyz": [round(float(part), 4) for part in position],
+                           "quaternion": [round(float(part), 5) for part in (x, y, z, w)]})
         base = world.base().round(5).tolist()
         return {"at": round(world.now - self.offset, 4), "base": base, "joints": joints, "things": things}
 

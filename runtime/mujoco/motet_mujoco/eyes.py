@@ -40,6 +40,8 @@ PILED, HIDDEN = 0.005, 0.02
 # Parts of the travel of a drawer or door that are told apart, finer places about the best of them that are
 # compared, and the distance in m up to which a point is on the leaf.
 STEPS, FINE, LEAF = 5, 41, 0.01
+# Share of the way to a thing within which what a camera would meet is what it is mounted on.
+OWN = 0.2
 # Distance in m behind a thing from which on what shows there shows that the thing is gone, and the pixels of the rim
 # of a picture that show nothing of it.
 BEHIND, FRAME = 0.06, 4
@@ -388,6 +390,22 @@ class Eyes:
         things = {thing: self.beliefs.entities[thing] for thing in self.beliefs.things()}
         return {thing for thing, entity in things.items() if painted(entity, one["label"])
                 and np.max(one["extent"]) < PARTLY * np.max(extent(entity))}
+
+    def is_covered(self, thing):
+        """True if the robot itself hides the middle of a thing where it is believed to be, as its own joints tell."""
+        pose, model, room = self.beliefs.entities.get(thing, {}).get("pose"), self.world.model, self.beliefs.room()
+        if self.oracle or pose is None or not model.cameras:
+            return False
+        way = np.array(pose["xyz"], dtype=float) - self.eye()
+        far, _ = sight.ray(model, room, self.eye() + OWN * way, self.eye() + way, sight.ROBOT)
+        return 0.0 <= far < (1.0 - OWN) * np.linalg.norm(way)
+
+    def cut_off(self, wanted):
+        """Places of detections without an id that may be things of some ids, of which the rim of a picture cuts off the
+        rest."""
+        things = [self.beliefs.entities[thing] for thing in wanted if thing in self.beliefs.things()]
+        return [one["pose"]["xyz"] for one in self.last if one["id"] is None and any(
+            painted(entity, one["label"]) and np.max(one["extent"]) < 1.1 * np.max(extent(entity)) for entity in things)]
 
     def is_part(self, one, taken):
         """True for a detection that is a part of a thing of which another part was recognised, as where something

@@ -2,9 +2,11 @@
 
     python -m motet_mujoco.judge --robot hsr [--scene kitchen]… [--profile typical --seeds 10]
 
-`reach` holds if the hand still holds the thing 1.5 s after everything else that bore it is gone. `go_to` holds if
-the base arrives without touching anything. `pull` and `push` hold if the drawer or door is then open or closed.
-`put` holds if the thing comes to rest on or in what it was put on, upright.
+`reach` holds if the hand still holds the thing 1.5 s after everything else that bore it is gone, and `reach_at` if it
+also closed at its point. `go_to` and `stand_at` hold if the base arrives without touching anything, and `posture` if the
+arm does. `look` holds if the camera then sees the entity. `pull` and `push` hold if the drawer or door is then open or
+closed. `put` holds if the thing comes to rest on or in what it was put on, upright, and `offer` if the hand still holds it
+before the person. What the hand holds at the start, it holds at the end.
 
 With a profile, each verdict is carried out once for each seed: the friction is another one, and the thing is not quite
 where it was seen and the hand not quite where it was sent.
@@ -14,24 +16,35 @@ import argparse
 import itertools
 import json
 import multiprocessing
-import os
 import sys
-import tempfile
 import time
 
 import numpy as np
 
 from .beliefs import Beliefs
+from .camera import HEIGHT, WIDTH
 from .chance import Chance, profile
+from .eyes import extent
 from .jaw import FEELS_AT, spared
-from .model import Model, ModelError, find_motet, motet, save
+from .model import Model, ModelError, find_motet
 from .motion import Path, frame_at, gentle, phases, rotation_vector, timed
+from .sight import first
+from .verdicts import BEGINNINGS, DEFAULT, SCENES, trials
 from .world import World
 
-SCENES = {"panda": [os.path.join(os.path.dirname(__file__), "scenes", "table.json")]}
-DEFAULT = ["kitchen", "lab", "living_room"]
 # Aims: shares that physics shall bear out.
-AIMS = {"reach": {"hsr": 0.95, "anymal_z1": 0.9, "panda": 0.95}, "go_to": 1.0, "pull": 0.9, "push": 0.9, "put": 0.9}
+AIMS = {"reach": {"hsr": 0.95, "anymal_z1": 0.9, "panda": 0.95}, "reach_at": 0.9, "go_to": 1.0, "stand_at": 1.0,
+        "posture": 1.0, "look": 0.95, "pull": 0.9, "push": 0.9, "put": 0.9, "offer": 0.9}
+# Distance in m and angle in rad of the hand from its witness along a path on which it holds nothing, and of the base at
+# its end.
+WITHIN = (0.003, 0.002)
+# Distance in m of the point of a grasp from the plane across the fingers in which they close.
+AT_POINT = 0.02
+# Distance of points from the middle of an entity, as a share of its half extents: those of `look`.
+OUT = 0.8
+# Distances in m from the middle of a person at which they take a thing, heights of it as shares of their stature, and the
+# cosine of its greatest tilt: those of `offer`, with 3 cm and 5° more.
+TAKES, AT_HEIGHTS, UPRIGHT = (0.27, 0.78), (0.4, 0.82), 0.82
 # Seconds for which a thing has to be held without support, and how far it may slip in the hand in m.
 HOLDS, SLIPS = 1.5, 0.03
 # Seconds in which the robot comes to rest at the end of a path.
@@ -58,10 +71,22 @@ class Trial:
 def carry_out(world, query, witness, share=1.0):
     """Carries a witness out from the start. Answers whether the world bears it out, and why not."""
     kind, _, rest = query.partition("(")
-    arguments = [part.strip() for part in rest.rstrip(")").split(",")]
+    arguments, held = [part.strip() for part in rest.rstrip(")").split(",")], world.model.scene["robot"].get("holding")
+    if held is not None:
+        world.settle_in_hand(held)
+        if not world.holds(held):
+            return False, "no grip at the start", np.zeros((2, 2))
+    judge = {"reach": reach, "reach_at": reach_at, "go_to": go_to, "stand_at": go_to, "posture": posture, "look": look,
+             "pull": pull, "push": pull, "put": put, "offer": offer}[kind]
     points = world.targets(witness["path"])
-    judge = {"reach": reach, "go_to": go_to, "pull": pull, "push": pull, "put": put}[kind]
-    return judge(world, arguments, points, witness, share)
+    if held is not None and kind != "put":
+        # A witness has the fingers as far apart as what they hold is wide: so they would not press it.
+        for point in points:
+            point[list(world.model.grips)] = world.target[list(world.model.grips)]
+    holds, why, error = judge(world, arguments, points, witness, share)
+    if holds and held is not None and kind != "put" and not world.holds(held):
+        return False, "loses %s" % held, error
+    return holds, why, error
 
 
 def follow(world, points, share, until=lambda: False):
@@ -108,7 +133,7 @@ def draw_back(world, far=0.08, share=0.5):
         follow(world, points, share)
 
 
-def reach(world, arguments, points, _witness, share):
+def reach(world, arguments, points, _witness, share, point=None):
     thing = arguments[0]
     before = world.pose(thing)[0]
     points, feels = spared(world, Beliefs(world), points, thing)
@@ -119,6 +144,9 @@ def reach(world, arguments, points, _witness, share):
     world.move_fingers(True, 1.0)
     if not world.holds(thing):
         return False, "no grip from two sides%s" % (", pushed %.0f mm" % (moved * 1e3) if moved > 0.005 else ""), error
+    off = 0.0 if point is None else abs(float((world.tip()[1].T @ (point - world.tip()[0]))[0]))
+    if off > AT_POINT:
+        return False, "closes %.0f mm beside the point" % (off * 1e3), error
     support_gone(world, thing)
     at = world.in_hand(thing)
     world.wait(HOLDS)
@@ -130,6 +158,11 @@ def reach(world, arguments, points, _witness, share):
     return True, "slips by %.1f mm" % (slip * 1e3), error
 
 
+def reach_at(world, arguments, points, witness, share):
+    place = np.array([float(part.removeprefix("pose(").removesuffix(" m")) for part in arguments[1:4]])
+    return reach(world, arguments, points, witness, share, place)
+
+
 def support_gone(world, thing):
     """Lets a thing touch nothing but the hand."""
     mj = world.model.mj
@@ -139,12 +172,72 @@ def support_gone(world, thing):
 
 
 def go_to(world, _arguments, points, _witness, share):
-    error = follow(world, points, share, until=lambda: world.bumped() is not None)
-    met = world.bumped()
+    error, met = arrived(world, points, share)
     if met is not None:
         return False, "touches %s" % met, error
-    off = np.abs(world.base() - points[-1][:3]).max() if world.model.drives else 0.0
-    return bool(off < 0.005), "off by %.1f mm" % (off * 1e3), error
+    off = np.abs(world.base() - points[-1][:3]) if world.model.drives else np.zeros(3)
+    is_there = np.hypot(*off[:2]) <= WITHIN[0] and off[2] <= WITHIN[1]
+    return bool(is_there), "off by %.1f mm, %.1f mrad" % (np.hypot(*off[:2]) * 1e3, off[2] * 1e3), error
+
+
+def arrived(world, points, share):
+    """Error of the hand along points and at their end, and what the robot touches on the way."""
+    held = world.held()
+    error = follow(world, points, share, until=lambda: world.bumped(held) is not None)
+    return error, world.bumped(held)
+
+
+def posture(world, _arguments, points, _witness, share):
+    error, met = arrived(world, points, share)
+    if met is not None:
+        return False, "touches %s" % met, error
+    is_free = not world.held()
+    off = "off by %.1f mm, %.1f mrad" % tuple(error[0] * 1e3)
+    return bool(np.all(error[0] <= WITHIN) or not is_free), off, error
+
+
+def look(world, arguments, points, _witness, share):
+    error, met = arrived(world, points, share)
+    if met is not None:
+        return False, "touches %s" % met, error
+    camera = next((one for one in world.model.cameras if shows(world, one, arguments[0])), None)
+    return camera is not None, "out of view" if camera is None else "in view of %s" % camera, error
+
+
+def shows(world, camera, one):
+    """True if a camera as it is turned has in its picture, and in its range, a point of an entity that no furniture,
+    thing or person hides: its middle, or one of each of its parts."""
+    model, data = world.model, world.data
+    at = model.mj.camera(camera).id
+    eye, axes, high = data.cam_xpos[at], data.cam_xmat[at].reshape(3, 3), np.tan(np.radians(model.mj.cam_fovy[at]) / 2.0)
+    for point in points_of(world, one):
+        x, y, z = axes.T @ (point - eye)
+        is_framed = z < 0.0 and abs(y) <= -z * high and abs(x) <= -z * high * WIDTH / HEIGHT
+        if is_framed and np.linalg.norm(point - eye) <= model.sight[camera][0] and first(model, data, eye, point) == one:
+            return True
+    return False
+
+
+def points_of(world, one):
+    """Points of an entity: its middle, and those on the axes of its shape and of its parts, such as its drawer."""
+    model, data, body = world.model, world.data, world.model.body_of[one]
+    steps = OUT * np.vstack([np.zeros(3), np.eye(3), -np.eye(3)])
+    yield from data.xpos[body] + steps * extent(model.entities[one]) / 2.0 @ data.xmat[body].reshape(3, 3).T
+    for geom in world.geoms(one):
+        rotation, box = data.geom_xmat[geom].reshape(3, 3), model.mj.geom_aabb[geom]
+        yield from data.geom_xpos[geom] + (box[:3] + steps * box[3:]) @ rotation.T
+
+
+def offer(world, arguments, points, _witness, share):
+    thing, person = arguments[:2]
+    error, met = follow(world, points, share), world.bumped([thing])
+    if met is not None:
+        return False, "touches %s" % met, error
+    place, stature = world.pose(thing)[0], world.model.entities[person]["shape"]["cylinder"]["height"]
+    far, up = float(np.hypot(*(place - world.pose(person)[0])[:2])), world.data.xmat[world.model.body_of[thing]][8]
+    is_near = TAKES[0] <= far <= TAKES[1] and AT_HEIGHTS[0] <= place[2] / stature <= AT_HEIGHTS[1] and up >= UPRIGHT
+    return bool(is_near), "%.2f m from %s at a height of %.2f m, tilted by %.0f°" % (
+        far, person, place[2], np.degrees(np.arccos(np.clip(up, -1.0, 1.0)))), error
 
 
 def pull(world, arguments, points, witness, share):
@@ -178,9 +271,6 @@ def push_thing(world, thing, points, share):
 
 def put(world, arguments, points, witness, share):
     thing, support = arguments[0], arguments[1]
-    world.settle_in_hand(thing)
-    if not world.holds(thing):
-        return False, "no grip at the start", np.zeros((2, 2))
     error, parts = np.zeros((2, 2)), phases(points, world.model.grips, "draw")
     for phase, part in parts:
         if phase == "draw":
@@ -206,57 +296,6 @@ def put(world, arguments, points, witness, share):
     return True, where, error
 
 
-def verdicts(command, robot, scene, *motions):
-    """Feasible verdicts with their witnesses, in order: of motions, or of all from the start."""
-    asked = [part for motion in motions for part in ("--for", motion)] or ["--all"]
-    text = motet(command, "feasible", "--robot", robot, "--scene", scene, *asked, "--format", "json", ok=(0, 1))
-    lines = [json.loads(line) for line in text.splitlines()]
-    return [(line["query"], line["witness"]) for line in lines if line.get("answer") == "feasible"]
-
-
-def puts(command, robot, scene, folder):
-    """Scenes in which the hand holds a thing, with the motions that put it somewhere."""
-    things = [e for e in scene["entities"] if e["kind"] == "Object" and not e.get("fixed") and "shape" in e]
-    supports = [e["id"] for e in scene["entities"] if e["kind"] in ("Surface", "Container")]
-    for thing in things:
-        held = json.loads(json.dumps(scene))
-        held["robot"]["holding"] = thing["id"]
-        for entity in held["entities"]:
-            if entity["id"] == thing["id"]:
-                entity.pop("on", None)
-                entity.pop("in", None)
-        # What stands on it would fall.
-        held["entities"] = [e for e in held["entities"] if e.get("on") != thing["id"]]
-        path = os.path.join(folder, "%d.json" % things.index(thing))
-        save(path, held)
-        yield path, ["put(%s, %s)" % (quoted(thing["id"]), quoted(support)) for support in supports]
-
-
-def quoted(entity):
-    """An id as the language writes it."""
-    return entity if entity.isidentifier() else "`%s`" % entity
-
-
-def trials(command, robot, scene, kinds):
-    """All feasible verdicts of a scene, with the model in which they are carried out: (xml, query, witness)."""
-    xml = motet(command, "robots", "mjcf", "--robot", robot, "--scene", scene)
-    if kinds - {"put"}:
-        for query, witness in verdicts(command, robot, scene):
-            if query.partition("(")[0] in kinds - {"put"}:
-                yield xml, query, witness
-    if "put" in kinds:
-        with tempfile.TemporaryDirectory() as folder:
-            for held, motions in puts(command, robot, Model(xml).scene, folder):
-                try:
-                    found = verdicts(command, robot, held, *motions)
-                except ModelError as error:
-                    print("%s: %s" % (held, error), file=sys.stderr)
-                    continue
-                held_xml = motet(command, "robots", "mjcf", "--robot", robot, "--scene", held) if found else None
-                for query, witness in found:
-                    yield held_xml, query, witness
-
-
 def disturbed(xml, query, rates, chance):
     """A fresh world, as a profile and a seed make it, and the error in m with which the hand comes to the thing."""
     model = Model(xml)
@@ -269,7 +308,7 @@ def disturbed(xml, query, rates, chance):
             world.data.eq_active[at] = 0
     kind, _, rest = query.replace("`", "").partition("(")
     thing = rest.rstrip(")").split(",")[0]
-    if kind != "reach":
+    if kind not in ("reach", "reach_at"):
         return world, 0.0
     off = chance.error(rates["hand"]["error_m"], "hand", thing)
     off = off + chance.error(rates["camera"]["error_per_m"] * SEEN_FROM, "place", thing)
@@ -289,9 +328,9 @@ def rows(command, args):
     """What is to be carried out, in order: the parameters of `trial`."""
     kinds, rates = set(args.kind or AIMS), profile(args.profile)
     for scene in args.scene or SCENES.get(args.robot, DEFAULT):
-        for xml, query, witness in trials(command, args.robot, scene, kinds):
+        for name, xml, query, witness in trials(command, args.robot, scene, kinds, args.begin or BEGINNINGS[:1]):
             for seed in range(args.seeds):
-                yield scene, xml, query, witness, rates, seed
+                yield name, xml, query, witness, rates, seed
 
 
 def carried(jobs, items):
@@ -330,7 +369,7 @@ def trial(scene, xml, query, witness, rates=None, seed=0):
     world, off = disturbed(xml, query, rates or profile("ideal"), Chance(seed))
     begun = time.process_time()
     found = carry_out(world, query.replace("`", ""), witness)
-    return Trial(os.path.basename(scene), query, seed, found, off), world.now, time.process_time() - begun
+    return Trial(scene, query, seed, found, off), world.now, time.process_time() - begun
 
 
 def main(arguments=None):
@@ -338,8 +377,10 @@ def main(arguments=None):
     parser.add_argument("--robot", required=True, help="a built-in name, or a folder with a robot.toml")
     parser.add_argument("--scene", action="append", help="a built-in name, or a JSON file; repeatable")
     parser.add_argument("--motet", help="the command `motet` [default: from PATH]")
-    parser.add_argument("--kind", action="append", choices=["reach", "go_to", "pull", "push", "put"],
-                        help="kind of motion; repeatable [default: all]")
+    parser.add_argument("--kind", action="append", choices=list(AIMS), help="kind of motion; repeatable [default: all]")
+    parser.add_argument("--begin", action="append", choices=BEGINNINGS,
+                        help="state that motions begin in: the start of the scene, each time with another drawer or door"
+                             " open, or with a thing in the hand; repeatable [default: start]")
     parser.add_argument("--profile", default="ideal", metavar="ideal|typical|harsh|FILE",
                         help="errors and friction of the trials [default: ideal]")
     parser.add_argument("--seeds", type=int, default=1, help="trials of each verdict, with seeds from 0 on [default: 1]")
@@ -369,7 +410,7 @@ def told(done, form):
                           "why": done.why, "error": rounded(done.error[0]),
                           "end_error": rounded(done.error[1])}), flush=True)
     else:
-        print("%-12s %-32s %3d %-4s %s" % (done.scene, done.query, done.seed, "yes" if done.holds else "NO", done.why),
+        print("%-24s %-36s %3d %-4s %s" % (done.scene, done.query, done.seed, "yes" if done.holds else "NO", done.why),
               flush=True)
 
 
@@ -400,7 +441,7 @@ def summary(args, done, simulated, taken):
         shares.setdefault(one.kind(), []).append(bool(one.holds))
     # Where nothing is held or touched, so that nothing bends the arm; `pull` counts the way to the handle and
     # back.
-    free = [one.error for one in done if one.kind() in ("reach", "go_to", "pull")]
+    free = [one.error for one in done if one.kind() not in ("put", "offer") and "holding" not in one.scene]
     error = np.max(free, axis=0) if free else np.zeros((2, 2))
     if args.format == "json":
         found = {kind: {"held": sum(held), "of": len(held), "interval": interval(sum(held), len(held)),
@@ -412,7 +453,7 @@ def summary(args, done, simulated, taken):
     print()
     for kind, held in shares.items():
         low, high = interval(sum(held), len(held))
-        print("%-6s %3d of %3d borne out, %5.1f %% (%.1f to %.1f; aim %.0f %%)"
+        print("%-8s %3d of %3d borne out, %5.1f %% (%.1f to %.1f; aim %.0f %%)"
               % (kind, sum(held), len(held), 100.0 * sum(held) / len(held), 100.0 * low, 100.0 * high,
                  100.0 * aim_of(kind, args.robot)))
     print("the hand is off its witness by at most %.2f mm and %.2f mrad along a path,"

@@ -111,6 +111,9 @@ class Model:
         self.ramps = np.array([RAMPS[0] if at < 3 and self.drives else RAMPS[1] for at in range(m.nu)])
         grips = {key.removeprefix("hand/"): value for key, value in numbers.items() if key.startswith("hand/")}
         self.grips = {self.controls[unquote(key)]: value for key, value in grips.items()}
+        # Joints of fingers that give way: positions in `qpos`, where they rest, and their travel.
+        self.springs = [(int(m.jnt_qposadr[at]), float(m.qpos_spring[m.jnt_qposadr[at]]), float(np.ptp(m.jnt_range[at])))
+                        for at in np.flatnonzero((m.jnt_stiffness > 0.0) & m.jnt_limited)]
         # Bodies: who is an entity, a door, or the robot.
         self.body_of = {unquote(m.body(at).name): at for at in range(1, m.nbody)}
         self.owner = [None] * m.nbody

@@ -4,14 +4,13 @@ Its parts are generators that aim the actuators once a tick; a task is made of t
 """
 
 import copy
-import itertools
 
 import mujoco
 import numpy as np
 
 from .clearance import TOUCHES, Clearance
 from .motion import Path, frame_at, gentle, limits, near_turn, timed, witnessed
-from .planner import START, quoted, stand_at
+from .planner import START, stand_at
 from .trail import Trail
 
 # Differences in m or rad up to which the robot stands at the beginning of a path.
@@ -20,31 +19,26 @@ BEGINS = 0.05
 BLOCKED = 0.12
 # Seconds for which the robot pushes on against something, and after which a thing that the fingers do not feel is lost.
 PUSHES, LOSES = 0.1, 0.05
+# Distance in m by which the base moves away from what presses on the robot.
+COMES_OFF = 0.08
 # Distances in m that the base draws back where the arm has no room to fold.
 RETREATS = (0.15, 0.3, 0.45)
-# Distances in m of the base from a hidden spot, beyond the reach of the robot. The spot is most often in or on something
-# larger.
-AROUND = (0.2, 0.1, -0.05)
-# Directions in rad in which places around a spot are tried, from the direction of the robot.
-TURNS = (0.0, 0.5, -0.5, 1.0, -1.0, 1.5, -1.5, 2.0, -2.0)
-# Directions between them, for a robot that is to put something down: from few places it has a short way for that.
-BETWEEN = (0.25, -0.25, 0.75, -0.75, 1.25, -1.25, 1.75, -1.75)
-# Detour in m of the base, beyond a straight drive to a place, that is short enough: no more places are tried then.
-DETOUR = 1.0
 # Heights in m from which the hand may let go of a thing.
 LETS_GO = (0.01, 0.02)
 # Heights in m by which the hand may go back above the way that it came.
 RAISES = (0.06, 0.12, 0.18, 0.24)
 # Way in m or rad between two checks of a straight way.
 STEP = 0.05
-# Id of what may be in a container.
-INSIDE = "inside"
 # Seconds before its deadline by which a command is to be done.
 SPARE = 1.0
 # Queries of the postures of the arm.
 POSTURES = {"home": "posture(home)", "ready": "posture(start)"}
 # Seconds that pass for each place of which a plan is tried, so that no answer to the host takes long.
 THINKS = 0.1
+
+
+class Met(Exception):
+    """Something presses on the robot."""
 
 
 class Failed(Exception):
@@ -296,14 +290,28 @@ class Mover:
             return
 
     def stand(self, leaves, motion, watch=None):
-        """Drives to where a command leaves the robot, if there is a way and time for it. Whoever stands
-        behind an open door may have a long way back, and what comes next can begin here as well."""
+        """Drives to where a command leaves the robot, if there is a way and time for it, as far as nothing presses on
+        the robot. Whoever stands behind an open door may have a long way back, and what comes next can begin here as
+        well."""
         if motion.leaves is None or not self.world.model.drives or np.abs(leaves - self.goal)[:3].max() <= 1e-3:
             return
         witness, _ = self.planner.plan(self.beliefs.now(), stand_at(*leaves[:3]))
         path = None if witness is None else self.own(witness, motion)
-        if path is not None and self.world.now + path.end <= motion.until - SPARE:
-            yield from self.follow(path, watch=watch)
+        if path is None or self.world.now + path.end > motion.until - SPARE:
+            return
+        held = self.room.held()
+
+        def meets():
+            if watch is not None:
+                watch()
+            if self.room.bumped(held) is not None:
+                raise Met
+
+        try:
+            yield from self.follow(path, watch=meets)
+        except Met:
+            self.goal[:3] = self.world.base()
+            yield from self.come_off(motion)
 
     def is_way(self, *points, keeps=None):
         """True if nothing is too near on the straight ways between targets that is not so at the first of them."""
@@ -357,9 +365,16 @@ class Mover:
         return target
 
     def home_again(self, begun, motion, watch=None):
-        """Brings the robot to where the command leaves it, by a way of its own: away from what it opened or
-        closed, the arm home, and the base to its place, if there is time for that. True if the arm is there
-        or at home."""
+        """Brings the robot to where the command leaves it, by a way of its own: the arm home, and the base to its
+        place, if there is time for that. True if the arm is there or at home."""
+        is_folded = yield from self.folded_again(begun, motion, watch)
+        if is_folded:
+            yield from self.stand(self.leaves(motion, begun), motion, watch)
+        return is_folded
+
+    def folded_again(self, begun, motion, watch=None):
+        """Brings the arm home, unless it is where the command leaves it. The base draws back if the arm has no room to
+        fold. True if the arm is there or at home."""
         leaves = self.leaves(motion, begun)
         if motion.leaves is not None and np.abs(self.goal - leaves)[self.arm_and_base()].max() <= 0.02:
             return True
@@ -370,45 +385,7 @@ class Mover:
             return False
         yield from self.follow(self.own(witness, motion), watch=watch)
         self.observer.own.posture = "home"
-        yield from self.stand(leaves, motion, watch)
         return True
-
-    def supposing(self, one, place):
-        """The room as it is believed to be; with an entity at a place, or with a small thing there under an id that
-        nothing has. What lies in something hides neither."""
-        scene = self.beliefs.now()
-        if place is not None:
-            own = self.beliefs.entities.get(one, {"id": one, "kind": "Object", "shape": {"sphere": {"radius": 0.02}}})
-            others = [known for known in scene["entities"] if known["id"] != one]
-            for known in others:
-                if known.get("in"):
-                    known.pop("pose", None)
-            pose = {"xyz": [float(part) for part in place], "rpy": [0.0, 0.0, 0.0]}
-            scene["entities"] = [*others, {**own, "pose": pose}]
-        return scene
-
-    def face(self, container, motion):
-        """Drives to where the inside of an open container shows and is within reach, if it is not so here:
-        with a thing in the hand, to where the hand can put it in. True if the robot stands there then."""
-        place, query = self.beliefs.places(container, True, 0.05)[0], "look(%s)" % INSIDE
-        held = self.room.held()
-
-        def way(stand):
-            return self.way_to_put(held[0], container, stand) if held else 0.0
-
-        is_here = self.observer.serves(container) and way(self.world.base()) <= DETOUR
-        if is_here and self.planner.ask(self.supposing(INSIDE, place), query)[0] is not None:
-            return True
-        came = yield from self.around(query, INSIDE, place, place, motion, motion.until - SPARE, way)
-        return came and self.observer.serves(container)
-
-    def way_to_put(self, thing, on, stand):
-        """Way in m of the base from a place to where the hand puts a thing down; infinite without one."""
-        scene = self.beliefs.now()
-        scene["robot"]["base"] = [float(part) for part in stand]
-        query = "put(%s, %s)" % (quoted(thing), quoted(on))
-        witness, _ = self.put_witness(scene, query, thing, self.planner.ask)
-        return np.inf if witness is None else driven(witness)
 
     def put_witness(self, scene, query, thing, ask):
         """(witness, None), or (None, why), of a motion that puts a thing down in a room. Where the fingers
@@ -426,41 +403,6 @@ class Mover:
                 witness, _ = ask(lower, query)
         return witness, None if witness is not None else why
 
-    def around(self, query, one, place, spot, motion, until=np.inf, way=None):
-        """Drives to a place from which a motion is feasible while an entity is supposed to be at `place`. The places lie
-        around a spot; those on the side of the robot are tried first. The first one without a long detour is taken,
-        else the one with the shortest way; `way` gives the way in m of what comes next from a place. True if the base
-        has come to such a place by a time."""
-        model, (x, y, yaw) = self.world.model, self.world.base()
-        towards, best, least = float(np.arctan2(y - spot[1], x - spot[0])), None, np.inf
-        offs, turns = AROUND if model.drives else (), (TURNS, BETWEEN) if way else (TURNS,)
-        for off, turn in itertools.chain(*(itertools.product(offs, some) for some in turns)):
-            if self.world.now + THINKS > until:
-                break
-            far, angle, scene = model.card[1] + off, towards + turn, self.supposing(one, place)
-            stand = spot[0] + far * np.cos(angle), spot[1] + far * np.sin(angle)
-            stand = (*stand, near_turn(angle + np.pi, yaw))
-            scene["robot"]["base"] = [float(part) for part in stand]
-            yield from self.pause(THINKS)
-            if self.planner.ask(scene, query)[0] is None:
-                continue
-            straight, then = float(np.hypot(stand[0] - x, stand[1] - y)), 0.0 if way is None else way(stand)
-            if best is not None and straight + then >= least:
-                continue
-            witness, _ = self.planner.plan(self.beliefs.now(), stand_at(*stand))
-            path = None if witness is None else self.own(witness, motion)
-            if path is None or self.world.now + path.end > until:
-                continue
-            cost = driven(witness) + then
-            if best is None or cost < least:
-                best, least = path, cost
-            if cost <= straight + DETOUR:
-                break
-        if best is None or self.world.now + best.end > until:
-            return False
-        yield from self.follow(best)
-        return True
-
     def from_rest(self, task, motion, anywhere=False):
         """A task that begins with the arm at rest, or anywhere: where a motion ended on its way, the arm comes back
         first."""
@@ -474,6 +416,20 @@ class Mover:
             arm = self.world.model.arm
             self.is_adrift |= not is_done and bool(np.abs(self.goal - begun)[arm].max() > BEGINS)
         return value
+
+    def come_off(self, motion):
+        """Moves the base a little away from what presses on the robot, as its skin feels."""
+        if not self.world.model.drives:
+            return
+        held, clearance = self.room.held(), Clearance(self.world, self.beliefs, TOUCHES)
+        for turn in (0.0, 0.25, -0.25, 0.5, -0.5):
+            if self.room.bumped(held) is None:
+                return
+            away = self.world.base()[:2] - np.mean(list(self.world.bumps()), axis=0)[:2]
+            angle, target = float(np.arctan2(away[1], away[0])) + turn * np.pi, self.goal.copy()
+            target[:2] += COMES_OFF * np.array([np.cos(angle), np.sin(angle)])
+            if clearance.is_free(self.goal, self.goal, [(self.goal + target) / 2.0, target]):
+                yield from self.follow(self.path([self.goal.copy(), target], motion))
 
     def fold(self, motion):
         """Brings the arm to where it was before a motion that ended on its way, if it finds a way there."""
@@ -546,12 +502,6 @@ class Mover:
                     yield from self.follow(self.path([self.goal.copy(), target], motion))
                     return witness
         return None
-
-
-def driven(witness):
-    """Way in m of the base along a witness."""
-    bases = np.array([point["base"][:2] for point in witness["path"]])
-    return float(np.linalg.norm(np.diff(bases, axis=0), axis=1).sum())
 
 
 class Motion:

@@ -7,6 +7,8 @@ import numpy as np
 BEYOND = 0.3
 # Groups of geoms that a ray meets: all but the robot.
 GROUPS = np.array([1, 1, 0, 0, 1, 1], dtype=np.uint8)
+# The group of the robot.
+ROBOT = 1 - GROUPS
 # Height in m of the scanner that notices people, and its range.
 SCANNER, SCANS = 0.25, 8.0
 
@@ -42,13 +44,26 @@ def scans(model, data, base, person):
 
 def first(model, data, eye, point):
     """Entity that a ray from the eye to a point and beyond meets first, apart from the robot."""
+    _, geom = ray(model, data, eye, point)
+    return model.geom_owner[geom] if geom >= 0 else None
+
+
+def shows(model, data, eye, point, near):
+    """True if a ray from the eye meets nothing farther from a point than so many m before it, apart from the robot."""
+    far, geom = ray(model, data, eye, point)
+    return geom < 0 or far > np.linalg.norm(point - eye) - near
+
+
+def ray(model, data, eye, point, groups=GROUPS):
+    """Distance in m at which a ray from the eye to a point and beyond meets a geom, of all but the robot unless other
+    groups are given, and that geom; -1 without one."""
     way, geom = point - eye, np.zeros(1, dtype=np.int32)
-    args = (model.mj, data, eye, way / max(np.linalg.norm(way), 1e-9), GROUPS, 1, -1, geom)
+    args = (model.mj, data, eye, way / max(np.linalg.norm(way), 1e-9), groups, 1, -1, geom)
     try:
-        mujoco.mj_ray(*args)
+        far = mujoco.mj_ray(*args)
     except TypeError:
-        mujoco.mj_ray(*args, None)
-    return model.geom_owner[geom[0]] if geom[0] >= 0 else None
+        far = mujoco.mj_ray(*args, None)
+    return far, int(geom[0])
 
 
 def points(model, one, middle):

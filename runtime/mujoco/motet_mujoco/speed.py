@@ -9,8 +9,9 @@ import statistics
 import sys
 import time
 
-from .judge import carry_out, verdicts
+from .judge import carry_out
 from .model import ModelError, find_motet, load
+from .verdicts import verdicts
 from .world import World
 
 # Times real time that the HSR reaches in the kitchen at least.

@@ -5,10 +5,11 @@ A task that is not resumed holds still, since the targets stay where they are.
 
 import numpy as np
 
+from .camera import NoGraphics
 from .jaw import FEELS_AT, aside, shifted, spared
-from .looking import Looker, entity
 from .motion import near_turn, phases
-from .moving import POSTURES, THINKS, Failed, Motion
+from .looking import Looker
+from .moving import POSTURES, SPARE, THINKS, Failed, Motion
 from .observation import AT_PLACE
 from .planner import quoted, stand_at
 from .world import OPENED
@@ -18,6 +19,8 @@ ARMLESS = ("say", "ask", "choose", "wake_up")
 ANYWHERE = ("home", "start_pose", "detect", "detect_all", "locate", "ground", "inspect")
 # Distance in m from a thing up to which a given point counts as being at it.
 NEAR_GRASP = 0.05
+# Way in m of the base on which it leaves what pressed on the robot as a drive began.
+LEAVES = 0.1
 # Distance in m that a handle moves in the hand at least where its drawer or door is not locked.
 GIVES = 0.04
 # Distances in m, beyond that of a drive to a person, from which the hand may hold something out, and turns in rad of the
@@ -35,6 +38,7 @@ class Tasks(Looker):
     def __init__(self, world, observer, beliefs, planner, eyes, options):
         super().__init__(world, observer, beliefs, planner, eyes, options)
         self.said = []
+        self.news = []  # detections that the host has not been told of yet
         self.answers = list(options.answers)
         self.answered = lambda: None  # called when a person has answered
 
@@ -54,6 +58,7 @@ class Tasks(Looker):
     # Moving.
 
     def do_go(self, args, motion):
+        yield from self.come_off(motion)
         to = entity(args["to"])
         about = self.about(to)
         if motion.witness is None and self.room.is_open(about) and (yield from self.face(about, motion)):
@@ -106,15 +111,23 @@ class Tasks(Looker):
             last = path.strokes[-1].points[-1] = path.strokes[-1].points[-1].copy()
             last[:2] += self.options.chance.error(self.options.rates["base"]["error_m"], "base")
 
+        begun, left = self.world.base(), list(self.world.bumps())
+
+        def is_leaving():
+            """True where the base is still about to leave what pressed on the robot as it began."""
+            is_near = np.hypot(*(self.world.base() - begun)[:2]) < LEAVES
+            return is_near and all(any(np.linalg.norm(at - one) < LEAVES for one in left) for at in self.world.bumps())
+
         def watch():
             met = self.room.bumped(held)
-            if met is not None and met != to:
+            if met is not None and met != to and not is_leaving():
                 raise Failed("blocked", "%s is in the way" % met)
 
         yield from self.follow(path, watch=watch)
         yield from self.pause(0.2)
 
     def do_go_to_pose(self, args, motion):
+        yield from self.come_off(motion)
         pose = args["to"]["pose"]
         x, y, _ = pose["xyz"]
         yaw = yaw_of(pose["quaternion"])
@@ -122,6 +135,7 @@ class Tasks(Looker):
         yield from self.drive(path, None)
 
     def do_turn(self, args, motion):
+        yield from self.come_off(motion)
         target = self.goal.copy()
         target[2] += number(args["by"])
         yield from self.drive(self.path([self.goal.copy(), target], motion), None)
@@ -330,25 +344,38 @@ class Tasks(Looker):
                     # The way here leads through what is opened or closed.
                     self.trail.clear()
                     drawn, watch = self.drawing(part)
-                    yield from self.follow(self.path(part, motion, 0.5), watch=watch)
+                    is_whole = False
+                    try:
+                        yield from self.follow(self.path(part, motion, 0.5), watch=watch)
+                        is_whole = True
+                    finally:
+                        if not is_whole:
+                            # It ended on its way: nobody knows how far it is open.
+                            self.beliefs.opened(what, None)
                     self.trail.clear()
                     continue
                 yield from self.follow(self.path(part, motion), what)
-        far, whole = drawn or (1.0, 1.0)
+        far, whole, is_felt = drawn or (1.0, 1.0, True)
         is_open = world.is_open(what) if self.beliefs.oracle else opens if far >= OPENED * whole else None
         # After a motion that failed, only a look tells how far it came.
         self.beliefs.opened(what, is_open)
         if not any(phase == "release" for phase, _ in parts) and any(phase == "grip" for phase, _ in parts):
             yield from self.grip(False, 0.6)
             yield from self.straight(-0.08 * world.tip()[1][:, 2], motion)
-        yield from self.home_again(begun, motion)
+        # The base drives on once it is known how far the leaf stands in its way.
+        is_folded = yield from self.folded_again(begun, motion)
         self.glance()
         is_open = self.room.is_open(what)
+        if is_folded and is_open is not None:
+            yield from self.stand(self.leaves(motion, begun), motion)
+            self.glance()
+            is_open = self.room.is_open(what)
         if is_open is opens:
             if opens and motion.leaves is None:
                 yield from self.face(what, motion)
             return
-        if self.beliefs.oracle and world.is_locked(what) or not self.beliefs.oracle and opens and far < GIVES:
+        is_stuck = world.is_locked(what) if self.beliefs.oracle else opens and is_felt and far < GIVES
+        if is_stuck:
             self.beliefs.locked(what)
             raise Failed("blocked", "%s does not give way: it is locked" % what)
         if is_open is None:
@@ -356,10 +383,10 @@ class Tasks(Looker):
         raise Failed("slipped" if opens else "blocked", "%s is %s" % (what, "open" if is_open else "closed"))
 
     def drawing(self, part):
-        """How far the hand has drawn a handle, in m, and how far it is to, as a list that fills; and a check that fills
-        it. The fingers feel the handle as long as they do not close on nothing."""
+        """How far the hand has drawn a handle, in m, how far it is to, and whether it had the handle at all, as a list
+        that fills; and a check that fills it. The fingers feel the handle as long as they do not close on nothing."""
         begin, end = self.world.tip()[0], self.frame(part[-1])[0]
-        drawn = [0.0, float(np.linalg.norm(end - self.frame(part[0])[0]))]
+        drawn = [0.0, float(np.linalg.norm(end - self.frame(part[0])[0])), self.world.is_gripping()]
 
         def watch():
             if self.world.is_gripping():
@@ -373,6 +400,33 @@ class Tasks(Looker):
         yield from self.follow(path)
         yield from self.way_back(path, begun, motion, None)
         self.observer.own.moved.add(what)
+
+    # Looking.
+
+    def objects(self, what):
+        """Objects that a description fits."""
+        known = self.beliefs.entities
+        return [one for one in self.beliefs.matches(what) if known[one]["kind"] not in
+                ("Surface", "Container", "Person", "Place", "Zone")]
+
+    def do_detect(self, args, motion):
+        wanted = self.objects(args["what"]["text"])
+        found = (yield from self.seen(wanted, motion)) or (yield from self.seen_about(wanted, motion))
+        yield from self.pause(0.3)
+        if not found:
+            raise Failed("not_found", "nothing in view is called %s" % args["what"]["text"])
+        if len(found) > 1:
+            raise Failed("ambiguous", "%d things in view are called %s" % (len(found), args["what"]["text"]))
+        self.observer.own.moved.add(found[0])
+        yield from self.leave(motion)
+        return {"entity": found[0]}
+
+    def do_detect_all(self, args, motion):
+        found = yield from self.seen(self.objects(args["what"]["text"]), motion)
+        yield from self.pause(0.3)
+        self.observer.own.moved.update(found)
+        yield from self.leave(motion)
+        return {"list": [{"entity": one} for one in found]}
 
     def do_search(self, args, motion):
         what, places = args["what"]["text"], args["around"]["list"]
@@ -398,6 +452,51 @@ class Tasks(Looker):
                 yield from self.leave(motion)
                 return {"entity": found[0]}
         raise Failed("not_found", "nothing at these places is called %s" % what)
+
+    def do_locate(self, args, motion):
+        one = entity(args["object"])
+        found = (yield from self.seen([one], motion)) or (yield from self.seen_about([one], motion))
+        if not found:
+            raise Failed("not_found", "%s is not in view" % one)
+        seen = self.eyes.pose(one)
+        if seen is None:
+            raise Failed("not_found", "nobody knows where %s is" % one)
+        position, quaternion = seen
+        w, x, y, z = (float(part) for part in quaternion)
+        yield from self.leave(motion)
+        return {"pose": {"xyz": [float(part) for part in position], "quaternion": [x, y, z, w]}}
+
+    def do_ground(self, args, motion):
+        return (yield from self.do_locate(args, motion))
+
+    def do_inspect(self, args, motion):
+        one = entity(args["what"])
+        if one in self.world.model.body_of:
+            found = (yield from self.seen([one], motion)) or (yield from self.seen_about([one], motion))
+            if not found:
+                raise Failed("not_found", "%s is not in view" % one)
+        self.observer.own.moved.add(one)
+        is_open = self.eyes.sees_open(one)
+        if is_open is not None:
+            self.beliefs.opened(one, is_open)
+        yield from self.leave(motion)
+
+    def leave(self, motion):
+        """Goes to where a command leaves the robot after a look, if it says so and there is a way and time for it.
+        What is new in view is told first."""
+        leaves = self.leaves(motion, self.goal)
+        if np.abs(leaves - self.goal).max() <= 1e-3:
+            return
+        try:
+            self.news.extend(self.eyes.news())
+        except NoGraphics:
+            pass
+        yield from self.stand(leaves, motion)
+        target = self.goal.copy()
+        target[self.world.model.arm] = leaves[self.world.model.arm]
+        path = self.path([self.goal.copy(), target], motion)
+        if self.world.now + path.end <= motion.until - SPARE and self.is_way(self.goal, target):
+            yield from self.follow(path)
 
     # Talking.
 
@@ -430,6 +529,11 @@ class Tasks(Looker):
             raise Failed("refused", "nobody chooses")
         fitting = self.beliefs.matches(answer) if answer else []
         return next((one for one in listed if entity(one) in fitting), listed[0])
+
+
+def entity(value):
+    """Id in a value."""
+    return value.get("entity")
 
 
 def number(value):

@@ -22,7 +22,8 @@ OPENED = 0.6
 SINKS = 0.02
 # Distance in m from a thing within which a name that the host gives is of it.
 ABOUT = 0.15
-# Share of its travel from its end to which a finger that is told to close has closed on nothing.
+# Share of its travel from its end, or where it gives way from its rest, to which a finger that is told to close has
+# closed on nothing.
 CLOSED = 0.02
 # Distances in m from the tip along the fingers at which the gap between them is measured, and its greatest
 # difference from the width of what they hold.
@@ -294,13 +295,16 @@ class World:
         return self.called.get(thing, thing) in self.held()
 
     def is_gripping(self):
-        """True if the fingers, told to close, meet something before their end: by the joints of the hand alone."""
-        qpos, where = self.data.qpos, self.model.control_qpos
-        for at, (opened, closed) in self.model.grips.items():
-            least = CLOSED * abs(closed - opened)
-            if abs(self.target[at] - closed) < least < abs(qpos[where[at]] - closed):
-                return True
-        return False
+        """True if the fingers, told to close, meet something before their end, or all give way: by the joints of the
+        hand alone. Around something thin, fingers that give way come to their end as if nothing were between them."""
+        grips, qpos = self.model.grips, self.data.qpos
+        spans = {at: abs(closed - opened) for at, (opened, closed) in grips.items()}
+        told = [at for at, (_, closed) in grips.items() if abs(self.target[at] - closed) < CLOSED * spans[at]]
+        if not told:
+            return False
+        met = (abs(qpos[self.model.control_qpos[at]] - grips[at][1]) > CLOSED * spans[at] for at in told)
+        springs = self.model.springs
+        return any(met) or bool(springs) and all(abs(qpos[at] - rest) > CLOSED * travel for at, rest, travel in springs)
 
     def is_touched(self, thing):
         """True if a part of the hand touches a thing."""

@@ -90,6 +90,13 @@ def fact(fluent, *args, holds=True):
     return {"query": {"fact": {"fluent": fluent, "args": [{"is": {"entity": one}} for one in args]}}, "holds": holds}
 
 
+def forgotten(scene, thing):
+    """A scene that does not say where a thing is."""
+    keys = ("pose", "on", "in")
+    return {**scene, "entities": [{key: value for key, value in one.items() if one["id"] != thing or key not in keys}
+                                  for one in scene["entities"]]}
+
+
 def placed(world, base, tilt=-0.5):
     """Puts the robot somewhere at once, its head bent: the targets for that. The base may be x and y alone."""
     target = world.target.copy()

@@ -12,6 +12,7 @@ from motet_mujoco.camera import NoGraphics, Picture
 from motet_mujoco.detector import SMOOTH, fitted
 from motet_mujoco.eyes import Eyes, centred
 from motet_mujoco.model import Model, motet as command
+from motet_mujoco.verdicts import verdicts
 from motet_mujoco.world import World
 
 
@@ -73,7 +74,7 @@ def test_the_hand_does_not_hide_what_the_robot_looks_at(motet, tmp_path):
     scene["robot"]["base"] = [0.47, 0.11, 0.22]
     path = tmp_path / "scene.json"
     path.write_text(json.dumps(scene), encoding="utf-8")
-    [(_, witness)] = judge.verdicts(motet, "anymal_z1", str(path), "look(glass_1)")
+    [(_, witness)] = verdicts(motet, "anymal_z1", str(path), "look(glass_1)")
     world = World(Model(command(motet, "robots", "mjcf", "--robot", "anymal_z1", "--scene", str(path))))
     judge.follow(world, world.targets(witness["path"]), 1.0)
     beliefs = Beliefs(world)

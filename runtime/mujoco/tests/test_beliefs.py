@@ -9,8 +9,9 @@ from host import Host, entity, fact, placed, text
 from motet_mujoco.beliefs import Beliefs
 from motet_mujoco.camera import NoGraphics
 from motet_mujoco.driver import Driver, Options
-from motet_mujoco.judge import SCENES, carry_out, follow, verdicts
+from motet_mujoco.judge import carry_out, follow
 from motet_mujoco.model import load
+from motet_mujoco.verdicts import SCENES, verdicts
 from motet_mujoco.world import World
 
 

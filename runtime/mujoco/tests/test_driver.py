@@ -5,8 +5,9 @@ import os
 import subprocess
 import sys
 
+import numpy as np
 import pytest
-from host import Host, entity, fact, pose, text
+from host import Host, entity, fact, forgotten, pose, text
 from motet_mujoco.driver import Driver, Error, Options, serve
 from motet_mujoco.model import load
 
@@ -127,6 +128,29 @@ def test_words_and_sights_are_told(drive):
     host.carry_out("inspect", what=entity("mug_1"))
     seen = [each for one in host.reports if one["method"] == "detected" for each in one["params"]["detections"]]
     assert any(one["id"] == "mug_1" for one in seen), "it stands on another surface or elsewhere"
+
+
+@pytest.mark.parametrize("flags", [[], ["--oracle", "judge"], ["--oracle"]])
+def test_telemetry_tells_what_the_robot_knows(motet, tmp_path, flags):
+    """The mug stands elsewhere than the robot was told, and nobody told where the apple is."""
+    scene = load("hsr", "kitchen", motet).scene
+    real, told = tmp_path / "real.json", tmp_path / "told.json"
+    told.write_text(json.dumps(forgotten(scene, "apple")))
+    mug = next(one for one in scene["entities"] if one["id"] == "mug_1")
+    believed = list(mug["pose"]["xyz"])
+    mug["pose"]["xyz"][1] += 0.2
+    real.write_text(json.dumps(scene))
+    host = Host("hsr", str(real), "--told", str(told), *flags)
+    try:
+        host.advance(0.2)
+        moved = [one["params"] for one in host.reports if one["method"] == "moved"][-1]
+        places = {one["id"]: one["xyz"] for one in moved["things"]}
+        is_oracle = flags == ["--oracle"]
+        assert ("apple" in places) is is_oracle
+        expected = np.array(believed) + [0.0, 0.2 * is_oracle, 0.0]
+        assert np.abs(places["mug_1"] - expected).max() < 0.005
+    finally:
+        host.close()
 
 
 def test_a_point_decides_a_grasp(drive):

@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
+from host import placed
 from motet_mujoco.chance import profile
 from motet_mujoco.driver import Driver, Options
 from motet_mujoco.model import load
-from motet_mujoco.moving import Motion
+from motet_mujoco.moving import Failed, Motion
 from motet_mujoco.trail import SPACING, Trail
 
 
@@ -79,6 +80,36 @@ def test_a_robot_that_touches_something_goes_back_the_way_it_came(driver):
     assert "at the start" in driver.tasks.planner.plan(driver.beliefs.now(), "posture(home)")[1][1]
     assert "success" in carry_out(driver, "home")["ended"]
     assert is_home(driver)
+
+
+def touching(driver):
+    """Opens a drawer unseen, and lets the base stand at its front."""
+    world = driver.world
+    joint, opened, _ = world.model.doors["drawer_1"]
+    world.data.qpos[joint] = opened
+    driver.tasks.goal[:] = placed(world, [2.58, -1.64, 0.0])
+    world.step(driver.tasks.goal)
+    assert driver.tasks.room.bumped() is not None
+
+
+def test_a_base_that_touches_something_comes_off_it_first(driver):
+    touching(driver)
+    assert "success" in carry_out(driver, "go", to=entity("kitchen_table"))["ended"]
+    assert driver.tasks.room.bumped() is None
+
+
+def test_a_drive_does_not_count_the_contact_that_it_leaves(driver):
+    touching(driver)
+    target = driver.tasks.goal.copy()
+    target[0] -= 0.5
+    for _ in driver.tasks.drive(driver.tasks.path([driver.tasks.goal.copy(), target]), None):
+        driver.world.step(driver.tasks.goal, driver.tasks.rate, driver.tasks.change)
+    assert driver.tasks.room.bumped() is None
+    driver.tasks.goal[:] = driver.world.target
+    with pytest.raises(Failed, match="in the way"):
+        target[0] += 1.1
+        for _ in driver.tasks.drive(driver.tasks.path([driver.tasks.goal.copy(), target]), None):
+            driver.world.step(driver.tasks.goal, driver.tasks.rate, driver.tasks.change)
 
 
 def test_straight_stops_before_what_is_in_the_way(driver):

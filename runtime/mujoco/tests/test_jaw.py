@@ -6,9 +6,10 @@ from motet_mujoco.beliefs import Beliefs
 from motet_mujoco.chance import profile
 from motet_mujoco.driver import Driver, Options
 from motet_mujoco.jaw import LEAST, OFFSET, approach, aside, spared
-from motet_mujoco.judge import carry_out, verdicts
+from motet_mujoco.judge import carry_out
 from motet_mujoco.model import load
 from motet_mujoco.motion import frame_at
+from motet_mujoco.verdicts import verdicts
 from motet_mujoco.world import World
 
 

@@ -8,12 +8,13 @@ from motet_mujoco.beliefs import Beliefs
 from motet_mujoco.chance import Chance, profile
 from motet_mujoco.clearance import Clearance
 from motet_mujoco.driver import Driver, Options
-from motet_mujoco.judge import SCENES, tip_error
+from motet_mujoco.judge import tip_error
 from motet_mujoco.model import load
 from motet_mujoco.motion import HELD, Path, gentle, timed, witnessed
 from motet_mujoco.moving import Failed, Motion, Mover
 from motet_mujoco.observation import Observer
 from motet_mujoco.planner import Planner
+from motet_mujoco.verdicts import SCENES
 from motet_mujoco.world import GRIPS, TICK, World
 
 TABLE = SCENES["panda"][0]

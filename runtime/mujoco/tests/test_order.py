@@ -8,8 +8,10 @@ from motet_mujoco.model import load
 from motet_mujoco.moving import Failed, Motion
 
 DRAWER = {"what": {"entity": "drawer_1"}}
-# The way to a handle, the grip, the way that it is drawn, the release and the way off.
-SWING = ["pull(drawer_1)", "follow", "close hand", "follow", "open hand", "follow", "home", "look"]
+# The way to a handle, the grip, the way that it is drawn, the release, the way off, and a look once the arm is folded.
+SWING = ["pull(drawer_1)", "follow", "close hand", "follow", "open hand", "follow", "fold", "look"]
+# The way back of the base, once it is known how far the drawer stands open.
+BACK = ["back", "look"]
 
 
 @pytest.fixture(scope="module")
@@ -55,8 +57,8 @@ def tasks(driver, monkeypatch):
     monkeypatch.setattr(tasks, "motion", motion)
     monkeypatch.setattr(tasks, "grip", grip)
     monkeypatch.setattr(tasks, "glance", glance)
-    monkeypatch.setattr(tasks, "drawing", lambda _part: ((tasks.drawn, 0.35), None))
-    for name, says in {"follow": "follow", "straight": "straight", "home_again": "home", "way_back": "way back",
+    monkeypatch.setattr(tasks, "drawing", lambda _part: ((tasks.drawn, 0.35, True), None))
+    for name, says in {"follow": "follow", "straight": "straight", "folded_again": "fold", "stand": "back", "way_back": "way back",
                        "face": "face"}.items():
         monkeypatch.setattr(tasks, name, noted(says, True))
     yield tasks
@@ -72,7 +74,7 @@ def carry_out(task):
 def test_a_drawer_is_drawn_and_left_before_it_is_looked_at(tasks):
     """Where the command does not say where to end, the robot then drives to where the inside shows."""
     carry_out(tasks.do_open(DRAWER, Motion(None)))
-    assert tasks.done == [*SWING, "face"]
+    assert tasks.done == [*SWING, *BACK, "face"]
     assert tasks.room.is_open("drawer_1") is True
     tasks.done.clear()
     carry_out(tasks.do_open(DRAWER, Motion(None)))
@@ -81,7 +83,7 @@ def test_a_drawer_is_drawn_and_left_before_it_is_looked_at(tasks):
 
 def test_a_command_that_says_where_it_ends_leads_to_no_other_place(tasks):
     carry_out(tasks.do_open(DRAWER, Motion({"leaves": {"base": [0.0, 0.0, 0.0]}})))
-    assert tasks.done == SWING
+    assert tasks.done == [*SWING, *BACK]
 
 
 @pytest.mark.parametrize("drawn, kind, is_locked", [(0.01, "blocked", True), (0.15, "slipped", False)])

@@ -5,10 +5,12 @@ import pytest
 from motet_mujoco.beliefs import Beliefs
 from motet_mujoco.chance import profile
 from motet_mujoco.driver import Driver, Options
-from motet_mujoco.judge import SCENES, carry_out, verdicts
+from motet_mujoco.judge import carry_out
+from motet_mujoco.looking import DETOUR
 from motet_mujoco.model import load
 from motet_mujoco.motion import CHECKED, timed
-from motet_mujoco.moving import DETOUR, Motion
+from motet_mujoco.moving import Motion
+from motet_mujoco.verdicts import SCENES, verdicts
 from motet_mujoco.world import World
 
 
