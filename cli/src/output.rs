@@ -6,7 +6,7 @@ use std::path::Path;
 
 use clap::ValueEnum;
 use motet_project::ProjectError;
-use motet_syntax::render::{escaped, escaped_json};
+use motet_syntax::render::{escaped, escaped_json, is_steering};
 
 use crate::error::CliError;
 
@@ -183,6 +183,11 @@ pub(crate) fn note(text: &str) {
 /// Writes a line with its own colours to stderr. Errors are ignored: nobody is left to read of them.
 pub(crate) fn styled_note(text: &str) {
     let _ = writeln!(io::stderr().lock(), "{text}");
+}
+
+/// Text of a model without what would steer a terminal.
+pub(crate) fn printable(text: &str) -> String {
+    text.chars().filter(|letter| !is_steering(*letter) || *letter == '\n').collect()
 }
 
 /// `1 error`, `2 errors`.

@@ -6,8 +6,8 @@ use std::rc::Rc;
 use motet::driver_camera::DriverCamera;
 use motet::run::{remote_settings, state_facts};
 use motet_graph::Graph;
-use motet_host::remote::DriverAddress;
 use motet_host::remote::protocol::Hello;
+use motet_host::remote::{DriverAddress, DriverTimeouts, RemoteDriver};
 use motet_project::{DiagnosticSink, ProjectSession, SavedDriver, SavedProject, named_robot};
 use motet_runtime::{Driver, DriverClock, EngineSettings, Time};
 use motet_sim::Sim;
@@ -16,9 +16,8 @@ use motet_syntax::ast::File;
 
 use crate::error::CliError;
 use crate::flags::{DriverArgs, EnvironmentArgs, Speed};
-use crate::output::note;
+use crate::output::{escape, note};
 use crate::run_view::Clock;
-use crate::runner::connect;
 
 /// Driver that is ready for runs.
 pub(crate) struct ReadyDriver {
@@ -159,4 +158,11 @@ pub(crate) fn no_robot(wanted: Option<String>) -> CliError {
             "a run needs a robot: give --robot NAME, or write `for NAME` after the policy's name".to_owned(),
         ),
     }
+}
+
+/// Starts a driver process, or connects to it.
+pub(crate) fn connect(address: &DriverAddress, hello: Hello, from: Time) -> Result<RemoteDriver, CliError> {
+    let log = |text: &str| note(&format!("driver: {}", escape(text)));
+    RemoteDriver::connect(address.clone(), hello, DriverTimeouts::default(), from, Box::new(log))
+        .map_err(|breakage| CliError::Message(format!("{} ({address})", escape(&breakage.to_string()))))
 }

@@ -8,11 +8,23 @@ use std::sync::Arc;
 
 use motet_graph::Graph;
 use motet_graph::draw::Names;
-use motet_runtime::{Effect, Event, Fault, RunEnd, Time};
+use motet_runtime::{Effect, Event, Fault, RunControl, RunEnd, Time};
 
 use crate::flags::OutputFormat;
 use crate::output::{Colors, escape};
 use motet::page::tree::{StepStatus, StepTree};
+
+/// Words of a person that control a run.
+pub(crate) trait SpokenControl {
+    /// Takes in the next word. `None` if nothing was said.
+    fn control(&mut self, now: Time) -> Option<RunControl>;
+
+    /// Longest span of the run without a look for words.
+    fn at_least_every(&self) -> Time;
+
+    /// True once a word has stopped the run, or nobody is left to let it go on.
+    fn is_stopped(&self) -> bool;
+}
 
 /// Clock of a run.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

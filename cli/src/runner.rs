@@ -9,8 +9,6 @@ use std::time::{Duration, Instant};
 use motet::run::ObservedScene;
 use motet_graph::Graph;
 use motet_host::journal::{JournalWriter, RunRecorder};
-use motet_host::remote::protocol::Hello;
-use motet_host::remote::{DriverAddress, DriverTimeouts, RemoteDriver};
 use motet_planner::runtime_check::Guard;
 use motet_robots::scene::Scene;
 use motet_runtime::journal::JournalHead;
@@ -19,12 +17,11 @@ use motet_runtime::{
     RunControl, RunEnd, SwapRefusal, Time, ToldThing, Verifier, resume,
 };
 
-use crate::conversation::words::RunWords;
 use crate::error::{CliError, Exit, journal_error};
 use crate::flags::Speed;
 use crate::interrupt::{SLICE, catch_interrupts, is_interrupted, note_effect, note_event};
-use crate::output::{escape, note};
-use crate::run_view::View;
+use crate::output::note;
+use crate::run_view::{SpokenControl, View};
 use crate::swap_checker::SwapChecker;
 use crate::view::live::SharedPage;
 use crate::view::onlooker::PageObserver;
@@ -39,7 +36,7 @@ pub(crate) struct PacedView {
     /// The room as the robot knows it, with what it has seen.
     room: ObservedScene,
     /// Words of a person.
-    words: Option<RunWords>,
+    words: Option<Box<dyn SpokenControl>>,
     /// Desk of policies that are to take over, with the view of one that does.
     desk: Option<(SwapChecker, ViewOf)>,
 }
@@ -68,7 +65,7 @@ impl PacedView {
     }
 
     /// The same with words of a person.
-    pub(crate) fn with_words(self, words: Option<RunWords>) -> Self {
+    pub(crate) fn with_words(self, words: Option<Box<dyn SpokenControl>>) -> Self {
         Self { words, ..self }
     }
 
@@ -181,7 +178,7 @@ impl Observer for PacedView {
     }
 
     fn at_least_every(&self) -> Time {
-        let words = self.words.as_ref().map_or(Time::NEVER, |words| words.lines.at_least_every());
+        let words = self.words.as_ref().map_or(Time::NEVER, |words| words.at_least_every());
         match self.speed {
             Speed::Max => words,
             Speed::Times(factor) => words.min(Time::from_secs(0.1 * factor)),
@@ -250,7 +247,7 @@ impl Runner<'_> {
         };
         paced.finish(&end);
         shared.iter().for_each(|page| page.borrow_mut().finish());
-        if end == RunEnd::Interrupted && paced.words.as_ref().is_some_and(|words| words.is_stopped) {
+        if end == RunEnd::Interrupted && paced.words.as_ref().is_some_and(|words| words.is_stopped()) {
             return Ok(Exit::Failed);
         }
         let by_page = shared.as_ref().is_some_and(|page| page.borrow().hub().is_stopped());
@@ -271,11 +268,4 @@ pub(crate) const fn exit_of(end: &RunEnd) -> Exit {
         RunEnd::Fault(_) => Exit::Failed,
         RunEnd::Interrupted => Exit::Interrupted,
     }
-}
-
-/// Starts a driver process, or connects to it.
-pub(crate) fn connect(address: &DriverAddress, hello: Hello, from: Time) -> Result<RemoteDriver, CliError> {
-    let log = |text: &str| note(&format!("driver: {}", escape(text)));
-    RemoteDriver::connect(address.clone(), hello, DriverTimeouts::default(), from, Box::new(log))
-        .map_err(|breakage| CliError::Message(format!("{} ({address})", escape(&breakage.to_string()))))
 }

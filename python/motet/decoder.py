@@ -54,7 +54,7 @@ class Decoder:
         """The mask of the tokens that may follow, one bit per token, the lowest first: a `memoryview` of 32-bit words, which
         `numpy.asarray` takes as it is. Empty after the end.
 
-        `effort` limits what the checker may look at (0 or more; 20,000 take about a millisecond). Where that is not enough,
+        `effort` limits what the checker may look at (0 or more; 20,000 take about half a millisecond). Where that is not enough,
         `is_wide` is true, and the mask also has tokens that only names and types allow. Where `accept` refuses the chosen
         one, take the mask again, which lacks it, and choose another."""
         return memoryview(self._decoder.mask(effort)).cast("I")

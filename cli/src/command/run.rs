@@ -35,10 +35,10 @@ use crate::flags::{
 use crate::interrupt::{note_moving, note_open};
 use crate::output::{Colors, count, escape, note, opened_again, replace_file};
 use crate::questions::{QuestionDriver, answering, jumps};
-use crate::ready_driver::{ReadyDriver, RunSubject, open_driver};
+use crate::ready_driver::{ReadyDriver, RunSubject, connect, open_driver};
 use crate::report::Report;
 use crate::run_view::{Clock, view};
-use crate::runner::{Beginning, PacedView, Runner, connect, exit_of};
+use crate::runner::{Beginning, PacedView, Runner, exit_of};
 use crate::swap_checker::SwapChecker;
 use crate::view::answered::AnsweredQuestions;
 use crate::view::conversation::session;

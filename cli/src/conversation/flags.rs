@@ -1,14 +1,12 @@
 //! Flags of a conversation: those of `motet do` and of `motet talk`.
 
 use std::path::PathBuf;
-use std::str::FromStr;
 
 use clap::{Args, ValueEnum};
 use motet_planner::dialogue::OnInstruction;
-use motet_runtime::Time;
 
 use super::words::WordArgs;
-use crate::flags::{DriverArgs, OutputFormat, PageArgs, ServerArgs, SessionArgs, duration};
+use crate::flags::{DriverArgs, OutputFormat, PageArgs, ServerArgs, SessionArgs};
 
 /// Flags of a conversation.
 #[derive(Args, Debug)]
@@ -78,39 +76,4 @@ pub(super) struct ModelArgs {
     /// Use the built-in planner if the model cannot be asked or finds no policy
     #[arg(long)]
     pub(super) fallback: bool,
-}
-
-/// Request that is typed at a time of the run.
-#[derive(Clone, PartialEq, Debug)]
-pub(crate) struct ScheduledRequest {
-    /// Time since the start of the first run.
-    pub(super) at: Time,
-    pub(super) text: String,
-}
-
-impl FromStr for ScheduledRequest {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let wrong = || "write a time and a request, such as `12s: bring me the apple instead`".to_owned();
-        let (at, text) = text.split_once(':').ok_or_else(wrong)?;
-        let at = Time::from_secs(duration(at).map_err(|_| wrong())?);
-        let text = text.trim();
-        if text.is_empty() { Err(wrong()) } else { Ok(Self { at, text: text.to_owned() }) }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::ScheduledRequest;
-    use motet_runtime::Time;
-
-    #[test]
-    fn scheduled_request_has_a_time() {
-        let request = ScheduledRequest { at: Time::from_secs(1.5), text: "stop: now".to_owned() };
-        assert_eq!("1.5s: stop: now".parse(), Ok(request));
-        for wrong in ["", "stop", "12: stop", "12s:", "soon: stop", ": stop"] {
-            assert!(wrong.parse::<ScheduledRequest>().is_err(), "{wrong}");
-        }
-    }
 }

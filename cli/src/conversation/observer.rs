@@ -20,13 +20,13 @@ use serde_json::json;
 
 use super::flags::{ConversationArgs, ModelArgs};
 use super::operator::OperatorInput;
-use super::planner::{client, printable};
+use super::planner::client;
 use super::record::{ConversationRecord, RunJournal};
 use super::words::{TypedLines, note_held};
 use crate::error::CliError;
 use crate::flags::{OutputFormat, Speed};
 use crate::interrupt::{SLICE, is_interrupted, note_event};
-use crate::output::{Colors, Output, escape, note};
+use crate::output::{Colors, Output, escape, note, printable};
 use crate::run_view::{Clock, view};
 use crate::runner::PacedView;
 use crate::view::live::SharedPage;

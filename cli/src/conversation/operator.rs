@@ -20,10 +20,9 @@ use motet_runtime::Outcome;
 use motet_stdlib::lang::failures;
 use smol_str::SmolStr;
 
-use super::planner::printable;
 use crate::error::CliError;
 use crate::interrupt::is_interrupted;
-use crate::output::{escape, note};
+use crate::output::{escape, note, printable};
 use crate::questions::{Answerer, Question};
 use crate::typed_line::{self, LetterReader};
 use crate::view::hub::Hub;

@@ -9,7 +9,6 @@ use motet_planner::model::{self, ModelEvent, ModelObserver, ModelPlanner, Role, 
 use motet_planner::runtime_check::CheckMode;
 use motet_planner::{BackgroundBuiltin, Builtin, PlanRequest, Planner, RemainingSteps, Wait};
 use motet_project::files::read_small;
-use motet_syntax::render::is_steering;
 use serde_json::json;
 
 use super::flags::{ConversationArgs, ModelArgs};
@@ -17,7 +16,7 @@ use super::record::ConversationRecord;
 use crate::error::CliError;
 use crate::flags::{CarrierArg, OutputFormat, Speed};
 use crate::interrupt::is_interrupted;
-use crate::output::{Colors, note, styled_note};
+use crate::output::{Colors, note, printable, styled_note};
 
 /// Planner of the flags.
 pub(super) fn planner(
@@ -224,9 +223,4 @@ impl ModelObserver for ModelLog {
     fn is_stopped(&self) -> bool {
         is_interrupted()
     }
-}
-
-/// Text of a model without what would steer a terminal.
-pub(super) fn printable(text: &str) -> String {
-    text.chars().filter(|letter| !is_steering(*letter) || *letter == '\n').collect()
 }

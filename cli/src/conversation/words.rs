@@ -3,15 +3,17 @@
 
 use std::cmp::Reverse;
 use std::rc::Rc;
+use std::str::FromStr;
 
 use clap::Args;
 use motet_runtime::{RunControl, Time};
 
-use super::flags::ScheduledRequest;
 use super::operator::OperatorInput;
 use crate::error::CliError;
+use crate::flags::duration;
 use crate::interrupt::SLICE;
 use crate::output::{escape, note};
+use crate::run_view::SpokenControl;
 
 /// Interval at which scheduled lines are checked.
 const INTERVAL: Time = Time::from_nanos(100_000_000);
@@ -28,7 +30,7 @@ pub(crate) struct WordArgs {
 }
 
 /// Lines that are typed during a run.
-pub(crate) struct TypedLines {
+pub(super) struct TypedLines {
     /// Scheduled lines, the latest first.
     scheduled: Vec<ScheduledRequest>,
     operator: Rc<OperatorInput>,
@@ -61,33 +63,41 @@ impl TypedLines {
     }
 
     /// Longest span without a look for lines that are due.
-    pub(crate) fn at_least_every(&self) -> Time {
+    pub(super) fn at_least_every(&self) -> Time {
         if self.scheduled.is_empty() { Time::NEVER } else { INTERVAL }
     }
 }
 
 /// Words for a run of one policy.
 pub(crate) struct RunWords {
-    pub(crate) lines: TypedLines,
+    lines: TypedLines,
     is_held: bool,
-    /// True once a word has stopped the run, or nobody is left to let it go on.
-    pub(crate) is_stopped: bool,
+    is_stopped: bool,
 }
 
 impl RunWords {
     /// Words of the flags; none if they ask for none.
-    pub(crate) fn of(args: &WordArgs) -> Result<Option<Self>, CliError> {
+    pub(crate) fn of(args: &WordArgs) -> Result<Option<Box<dyn SpokenControl>>, CliError> {
         let operator = match args.live {
             true => OperatorInput::read(&[], true, None)?,
             false if args.say.is_empty() => return Ok(None),
             false => OperatorInput::Never,
         };
         let lines = TypedLines::new(args, Rc::new(operator));
-        Ok(Some(Self { lines, is_held: false, is_stopped: false }))
+        Ok(Some(Box::new(Self { lines, is_held: false, is_stopped: false })))
+    }
+}
+
+impl SpokenControl for RunWords {
+    fn at_least_every(&self) -> Time {
+        self.lines.at_least_every()
     }
 
-    /// Takes in the next line that is due. `None` if nothing was said.
-    pub(crate) fn control(&mut self, now: Time) -> Option<RunControl> {
+    fn is_stopped(&self) -> bool {
+        self.is_stopped
+    }
+
+    fn control(&mut self, now: Time) -> Option<RunControl> {
         let was_held = self.is_held;
         match self.lines.due(now) {
             Some(line) if motet_requests::stops(&line) => self.is_stopped = true,
@@ -119,4 +129,39 @@ impl RunWords {
 /// Says that a person holds the run, or lets it go on.
 pub(super) fn note_held(is_held: bool) {
     note(if is_held { "  keeps still; `go on` lets it go on" } else { "  goes on" });
+}
+
+/// Request that is typed at a time of the run.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct ScheduledRequest {
+    /// Time since the start of the first run.
+    pub(super) at: Time,
+    pub(super) text: String,
+}
+
+impl FromStr for ScheduledRequest {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let wrong = || "write a time and a request, such as `12s: bring me the apple instead`".to_owned();
+        let (at, text) = text.split_once(':').ok_or_else(wrong)?;
+        let at = Time::from_secs(duration(at).map_err(|_| wrong())?);
+        let text = text.trim();
+        if text.is_empty() { Err(wrong()) } else { Ok(Self { at, text: text.to_owned() }) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::ScheduledRequest;
+    use motet_runtime::Time;
+
+    #[test]
+    fn scheduled_request_has_a_time() {
+        let request = ScheduledRequest { at: Time::from_secs(1.5), text: "stop: now".to_owned() };
+        assert_eq!("1.5s: stop: now".parse(), Ok(request));
+        for wrong in ["", "stop", "12: stop", "12s:", "soon: stop", ": stop"] {
+            assert!(wrong.parse::<ScheduledRequest>().is_err(), "{wrong}");
+        }
+    }
 }

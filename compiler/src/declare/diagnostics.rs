@@ -354,10 +354,14 @@ motet_syntax::mistakes! {
     /// Calculation with numbers that are written out, and without a finite result.
     ResultWithoutValue("M0321", Error) { is_division_by_zero: bool }
     message(m) {
-        let what = if m.is_division_by_zero { "a division by zero has no value" } else { "the result is too large" };
-        what.to_owned()
+        let says =
+            if m.is_division_by_zero { "a division by zero has no value" } else { "the result is too large" };
+        says.to_owned()
     }
-    help(m) { Some(if m.is_division_by_zero { "divide by another number" } else { "use smaller numbers" }.to_owned()) }
+    help(m) {
+        let says = if m.is_division_by_zero { "divide by another number" } else { "use smaller numbers" };
+        Some(says.to_owned())
+    }
 
     /// Limit of the library that is exceeded, such as the parameters of a fluent.
     LimitExceeded("M0314", Error) { what: &'static str, limit: usize }

@@ -389,7 +389,10 @@ fn model_planner_request_made_meanwhile_is_planned_without_making_the_robot_wait
     let (mut talk, mut watcher) = (Conversation::new(&setting), Impatient::default());
     let (outcome, _) =
         talk.carry_out(COKE, &mut planner, &mut sim, &mut NoOperator, &mut watcher, Time::ZERO);
-    assert_eq!((outcome, watcher.swaps), (Outcome::Done, 1), "{:?}", heard.0.borrow());
+    // Nobody says whether the robot shall still bring the coke.
+    let Outcome::Failed(problem) = outcome else { panic!("{outcome:?}, {:?}", heard.0.borrow()) };
+    assert!(problem.question.ends_with("Shall I go on with \"bring me the coke\"?"), "{problem:?}");
+    assert_eq!(watcher.swaps, 1);
     assert_eq!(*heard.0.borrow(), ["asked 0", "taken", "asked 0", "taken"]);
     assert_eq!(sim.holds("open", &["fridge_1"]), Some(true), "{:?}", heard.0.borrow());
     assert_eq!(sim.holds("at", &["coke", "user"]), Some(false));

@@ -162,6 +162,20 @@ void motet_decoder_free(struct MotetDecoder *decoder);
 // words.
 enum MotetStatus motet_decoder_mask(struct MotetDecoder *decoder, uint32_t *words, uintptr_t count);
 
+// Writes the mask as `motet_decoder_mask` does, with a limit of its time: `effort` is what the checker may
+// look at, and 20,000 take about half a millisecond. `Refused` if that was not enough. Then the mask has all
+// tokens that may follow, and others that only names and types allow: where `motet_decoder_accept` refuses
+// the chosen token, ask for the mask again, which lacks that token, and choose another one.
+//
+// # Safety
+//
+// `decoder` is null or live, and nobody else uses it meanwhile; `words` is null or has room for `count`
+// words.
+enum MotetStatus motet_decoder_mask_within(struct MotetDecoder *decoder,
+                                           uint64_t effort,
+                                           uint32_t *words,
+                                           uintptr_t count);
+
 // Takes a token if it may follow.
 //
 // # Safety

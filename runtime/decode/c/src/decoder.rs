@@ -105,7 +105,7 @@ pub unsafe extern "C" fn motet_decoder_mask(
 }
 
 /// Writes the mask as `motet_decoder_mask` does, with a limit of its time: `effort` is what the checker may
-/// look at, and 20,000 take about a millisecond. `Refused` if that was not enough. Then the mask has all
+/// look at, and 20,000 take about half a millisecond. `Refused` if that was not enough. Then the mask has all
 /// tokens that may follow, and others that only names and types allow: where `motet_decoder_accept` refuses
 /// the chosen token, ask for the mask again, which lacks that token, and choose another one.
 ///

@@ -84,11 +84,12 @@ impl Decoder {
         self.set.0.as_slice()
     }
 
-    /// Computes the mask as [`mask`](Self::mask) does, with a limit of its time: `effort` is what the checker
-    /// may look at, as in [`motet_compiler::incremental::within`]; 20,000 take about a millisecond. Where that
-    /// is not enough, the mask [`is_wide`](Self::is_wide). It has all tokens that may follow, and others that
-    /// only names and types allow: [`accept`](Self::accept) judges the one that is chosen. After a refusal the
-    /// host takes the mask again, which lacks the refused tokens, and chooses another one.
+    /// Computes the mask as [`mask`](Self::mask) does, with a limit of its time: `effort` is what the
+    /// checker may look at, as in [`motet_compiler::incremental::within`]; 20,000 take about half a
+    /// millisecond. Where that is not enough, the mask [`is_wide`](Self::is_wide). It has all tokens that
+    /// may follow, and others that only names and types allow: [`accept`](Self::accept) judges the one that
+    /// is chosen. After a refusal the host takes the mask again, which lacks the refused tokens, and chooses
+    /// another one.
     pub fn mask_within(&mut self, effort: u64) -> &[u32] {
         let machine = &self.acceptor.machine;
         let (mark, before) = (machine.mark(), machine.findings());

@@ -68,8 +68,8 @@ impl Machine {
         self.context.memo.get(key)
     }
 
-    /// The answer to a question; asks the checker only if it is not known, and if some effort is left. Without
-    /// an answer it is yes.
+    /// The answer to a question; asks the checker only if it is not known, and if some effort is left.
+    /// Without an answer it is yes.
     pub(crate) fn answer(&mut self, key: u64, ask: impl FnOnce(&mut Self) -> bool) -> bool {
         if let Some(answer) = self.context.memo.get(key) {
             return answer;
