@@ -28,7 +28,7 @@ pub struct Guard(Schedule);
 #[derive(Debug)]
 enum Schedule {
     /// Searches inside the calls.
-    AtOnce { tracker: RunTracker, verdicts: VecDeque<(CheckId, Verification)> },
+    AtOnce { tracker: Box<RunTracker>, verdicts: VecDeque<(CheckId, Verification)> },
     /// Thread that receives every event in order and ends with the last sender.
     Background { thread: Sender<GuardMessage>, verdicts: Receiver<(CheckId, Verification)>, awaited: usize },
 }
@@ -58,7 +58,7 @@ impl Guard {
     pub fn new(course: WorldTracker, verifies: CheckMode) -> Self {
         match verifies {
             CheckMode::AtOnce => {
-                let tracker = RunTracker::new(course);
+                let tracker = Box::new(RunTracker::new(course));
                 Self(Schedule::AtOnce { tracker, verdicts: VecDeque::new() })
             }
             CheckMode::Background => Self::in_background(course),
