@@ -39,7 +39,6 @@ def test_random_policy_checks(environment, tokenizer, scale):
 
 @pytest.mark.parametrize("effort", [0, 2000])
 def test_a_policy_under_wide_masks_checks(environment, tokenizer, effort):
-    refused = 0
     for seed in range(3):
         random = numpy.random.default_rng(seed)
         decoder = motet.Decoder(environment=environment, tokenizer=tokenizer, budget=500)
@@ -48,10 +47,19 @@ def test_a_policy_under_wide_masks_checks(environment, tokenizer, effort):
             is_wide = decoder.is_wide
             if not decoder.accept(token):
                 assert is_wide and not decoder.allowed(effort)[token]
-                refused += 1
         wrong = [said for said in environment.check(decoder.text) if said["severity"] == "error"]
         assert not wrong, (seed, decoder.text, wrong)
-    assert refused > 0 or effort > 0
+
+
+def test_a_wide_mask_lacks_the_token_that_was_refused(environment, tokenizer):
+    decoder = motet.Decoder(environment=environment, tokenizer=tokenizer)
+    feed(decoder, START + '{"do":"')
+    pick = [decoder.vocabulary.token(token) for token in range(len(decoder.vocabulary))].index(b"pick")
+    assert decoder.allowed(0)[pick] and decoder.is_wide
+    assert not decoder.accept(pick)
+    assert not decoder.allowed(0)[pick] and decoder.is_wide
+    assert not decoder.allowed()[pick] and not decoder.is_wide
+    feed(decoder, "go")
 
 
 def test_a_mask_is_taken_by_numpy(environment, tokenizer):

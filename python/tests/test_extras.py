@@ -10,7 +10,8 @@ def test_each_extra_asks_for_what_its_modules_import():
     package = importlib.metadata.metadata("motet")
     assert set(package.get_all("Provides-Extra")) == {"mujoco", "transformers", "view"}
     needs = importlib.metadata.requires("motet") or []
-    for extra, libraries in {"mujoco": ["mujoco", "numpy"], "transformers": ["numpy", "transformers"], "view": []}.items():
+    physics = ["mujoco", "numpy", "opencv-python-headless"]
+    for extra, libraries in {"mujoco": physics, "transformers": ["numpy", "transformers"], "view": []}.items():
         asked = sorted(need.split(">")[0] for need in needs if f"extra == '{extra}'" in need.replace('"', "'"))
         assert asked == libraries, (extra, needs)
     assert all("extra ==" in need for need in needs), "the package itself needs Python alone"
