@@ -9,8 +9,8 @@ const MAX_FACTS: u64 = 40_000_000;
 const MAX_FACTS_OF_BYTE: u64 = 3;
 /// Weight of the visit of a step.
 pub(crate) const VISIT: usize = 40;
-/// Weight of the change of a fact: some 100 bytes are remembered of each, so all take at most 400 MB.
-pub(crate) const WRITE: usize = 10;
+/// Weight of the change of a fact: some 130 bytes are remembered of each, so all take at most 330 MB.
+pub(crate) const WRITE: usize = 16;
 
 thread_local! {
     /// Bound of the document that this thread checks.

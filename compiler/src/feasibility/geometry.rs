@@ -44,6 +44,9 @@ struct Memo {
     told: FxHashMap<(Box<[u8]>, MotionQuery), Infeasible>,
 }
 
+/// How far beyond its limits a joint may be sensed, in rad or m.
+const SENSED: f64 = 0.02;
+
 /// World with its fingerprint; equal fingerprints mean equal worlds.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Fingerprinted {
@@ -132,19 +135,25 @@ impl Geometry {
         (geometry, Arc::new(fingerprinted(world)))
     }
 
-    /// The world in which the robot stands elsewhere: the pose of its base, and joints by name.
+    /// The world in which the robot stands elsewhere: the pose of its base, and joints by name. `None` if a joint is
+    /// beyond its limits.
     pub(super) fn standing(
         &self,
         at: &Fingerprinted,
         base: [f64; 3],
         joints: &BTreeMap<SmolStr, f64>,
-    ) -> Arc<Fingerprinted> {
+    ) -> Option<Arc<Fingerprinted>> {
         let mut world = at.world.clone();
         world.robot.base = base;
         for (value, dof) in world.robot.joints.iter_mut().zip(self.machine.tree().dofs()) {
-            *value = joints.get(&dof.name).copied().unwrap_or(*value);
+            let Some(told) = joints.get(&dof.name) else { continue };
+            let is_within = |(least, most): (f64, f64)| (least - SENSED..=most + SENSED).contains(told);
+            if !told.is_finite() || dof.limits.is_some_and(|limits| !is_within(limits)) {
+                return None;
+            }
+            *value = *told;
         }
-        Arc::new(fingerprinted(world))
+        Some(Arc::new(fingerprinted(world)))
     }
 
     /// The same geometry, in which some things have no exact pose, as the scene leaves it out: they may be in

@@ -30,6 +30,8 @@ pub struct WorldTracker {
     at: Result<Arc<Fingerprinted>, SmolStr>,
     /// The world before a call that moved only the robot and stopped somewhere, until that place is known.
     stranded: Option<Arc<Fingerprinted>>,
+    /// True if an observation contradicts the world since something began to move.
+    is_doubted: bool,
     /// Number of active calls that move the robot or a thing.
     moving: u32,
     /// Things that were seen while something moved: they stand there once that is over.
@@ -71,7 +73,16 @@ struct ExecutedCall<'a> {
 impl WorldTracker {
     pub(crate) fn new(library: Arc<Library>, geometry: Arc<Geometry>) -> Self {
         let at = geometry.start();
-        Self { library, geometry, at, stranded: None, moving: 0, seen: Vec::new(), felt: None }
+        Self {
+            library,
+            geometry,
+            at,
+            stranded: None,
+            is_doubted: false,
+            moving: 0,
+            seen: Vec::new(),
+            felt: None,
+        }
     }
 
     /// Forecasts a motion with the arguments `of` for a call of a primitive, in its manner, in the present
@@ -117,6 +128,7 @@ impl WorldTracker {
     pub fn began(&mut self, primitive: &str) {
         self.take_in();
         if self.is_moving(primitive) {
+            self.is_doubted &= self.moving > 0;
             self.moving += 1;
             if self.moving > 1 {
                 self.lose("two things moved at the same time");
@@ -128,7 +140,11 @@ impl WorldTracker {
     pub fn succeeded(&mut self, primitive: &str, args: &[(SmolStr, Value)], result: Option<&Value>) {
         self.over(primitive);
         let Some(def) = primitive_of(&self.library, primitive) else { return };
-        let Ok(at) = &self.at else { return };
+        let Ok(at) = &self.at else {
+            // What it did to things is not known of the world before.
+            self.stranded = self.stranded.take().filter(|_| moves_robot_only(&self.library, def));
+            return;
+        };
         self.at = after(&self.library, &self.geometry, at, ExecutedCall { def, args, result });
         self.take_in();
     }
@@ -143,7 +159,7 @@ impl WorldTracker {
     pub fn stopped(&mut self, primitive: &str) {
         self.over(primitive);
         if self.is_moving(primitive) {
-            let before = self.at.clone().ok().or_else(|| self.stranded.take());
+            let before = self.at.clone().ok().or_else(|| self.stranded.take()).filter(|_| !self.is_doubted);
             self.lose(&format!("where `{primitive}` stopped is not known"));
             let def = primitive_of(&self.library, primitive);
             self.stranded = before.filter(|_| def.is_some_and(|def| moves_robot_only(&self.library, def)));
@@ -152,11 +168,13 @@ impl WorldTracker {
 
     /// Takes in where the robot stands: base pose x, y in m and yaw in rad in the frame `map`, and positions
     /// of joints by name, in rad or m. Behind a call that moved only the robot and was interrupted or failed,
-    /// motions are found from there; otherwise nothing changes.
+    /// motions are found from there, unless a joint is beyond its limits; otherwise nothing changes.
     pub fn stands(&mut self, base: [f64; 3], joints: &BTreeMap<SmolStr, f64>) {
         let Some(before) = self.stranded.take_if(|_| self.moving == 0) else { return };
-        self.at = Ok(self.geometry.standing(&before, base, joints));
-        self.take_in();
+        if let Some(at) = self.geometry.standing(&before, base, joints) {
+            self.at = Ok(at);
+            self.take_in();
+        }
     }
 
     /// Takes in things where they were seen, also those that the scene lacks. What the hand holds stays
@@ -187,11 +205,15 @@ impl WorldTracker {
     /// Records an observation of `holding` or `open`. If it contradicts the tracked world, the world is
     /// unknown.
     pub fn observed(&mut self, fluent: &str, entity: &str, holds: bool) {
-        let Ok(at) = &self.at else { return };
+        let Some(at) = self.at.as_ref().ok().or(self.stranded.as_ref()) else { return };
         let id = self.library.names.fluents.get(fluent).copied();
         let here = id.and_then(|id| self.geometry.holds(&self.library, &at.world, id, entity));
+        if here.is_none_or(|here| here == holds) {
+            return;
+        }
         // While something moves it may be so already.
-        if self.moving == 0 && here.is_some_and(|here| here != holds) {
+        self.is_doubted = true;
+        if self.moving == 0 {
             self.lose(&format!("`{fluent}({entity})` changed unexpectedly"));
         }
     }

@@ -184,6 +184,7 @@ impl Decoder {
     /// Takes back the last tokens, or all if there are fewer.
     pub fn rollback(&mut self, tokens: usize) {
         self.refused.clear();
+        self.is_wide = false;
         for _ in 0..tokens {
             let Some(before) = self.before.pop() else { return };
             let bytes = self.acceptor.bytes().len().saturating_sub(before);

@@ -96,6 +96,7 @@ impl Machine {
             return self.verify_beside(event, more);
         };
         match self.test(body, fluent, negated, &args) {
+            _ if is_used_up() => true,
             LoopTest::Holds if self.is_independent(event, more) => true,
             // The body is right without a test, so the back edge was refuted.
             LoopTest::Idle if !self.may_iterate(body) => false,

@@ -159,6 +159,11 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
         Self { talk, planner, person, watcher, task, now, ready: None, doubtful: None, unknown: None }
     }
 
+    /// Returns whether another request has taken the place of this one.
+    pub(super) fn is_replaced(&self, request: &str) -> bool {
+        self.task.request != request
+    }
+
     /// Pursues the request to its end.
     pub(super) fn pursue(&mut self, driver: &mut dyn Driver) -> Outcome {
         let mut latest = None;

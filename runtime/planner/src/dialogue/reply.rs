@@ -63,7 +63,7 @@ impl Conversation<'_> {
         let run = self.next_run();
         let mut now = driver.begin_run(from, &run, None);
         now = self.find_out(&question, driver, now);
-        let mut answer = self.answer_here(&question, driver, now);
+        let (mut answer, mut closing) = (self.answer_here(&question, driver, now), None);
         let look = self.look_for(&question, driver.capabilities().detections).filter(|_| answer.is_none());
         if let Some(look) = look {
             let request = match &look {
@@ -75,7 +75,7 @@ impl Conversation<'_> {
             let end = match &look {
                 Look::For(thing) => manager.search(thing, driver),
                 Look::At(..) | Look::By(_) => match manager.pursue(driver) {
-                    Outcome::Done => SearchEnd::Missed,
+                    Outcome::Done if !manager.is_replaced(&request) => SearchEnd::Missed,
                     outcome => SearchEnd::Replaced(outcome),
                 },
             };
@@ -91,9 +91,10 @@ impl Conversation<'_> {
                         DialogueManager::new(self, (planner, person, &mut *watcher), &request, now);
                     let outcome = manager.pursue(driver);
                     now = manager.now;
-                    if outcome == Outcome::Stopped {
+                    if outcome == Outcome::Stopped || manager.is_replaced(&request) {
                         return (outcome, now);
                     }
+                    closing = Some(outcome).filter(|outcome| *outcome != Outcome::Done);
                 }
             }
             let run = self.next_run();
@@ -108,7 +109,9 @@ impl Conversation<'_> {
         self.memory.asked(now, said, answer.as_deref());
         watcher.answered(said, answer.as_deref());
         let unknown = || Problem { kind: Kind::NotFound, ..Problem::nothing(&self.unknown(&question)) };
-        (answer.map_or_else(|| Outcome::Failed(unknown()), |_| Outcome::Done), now)
+        let answered = answer.map_or_else(|| Outcome::Failed(unknown()), |_| Outcome::Done);
+        // What was opened for the answer may still be open.
+        (closing.unwrap_or(answered), now)
     }
 
     /// Answer from what is known, or from what the driver sees and where it stands now.

@@ -315,11 +315,33 @@ fn tracker_finds_motions_again_once_it_is_told_where_the_robot_stands() {
         let Forecast::Feasible { witness, .. } = motion(&tracker) else { panic!("{primitive}") };
         assert_eq!(witness.path[0].base, base, "{primitive}");
     }
+    let is_lost = |tracker: &mut motet_compiler::WorldTracker| {
+        tracker.stands(base, &[].into());
+        matches!(motion(tracker), Forecast::Unknown { .. })
+    };
+    // No robot stands like that.
+    tracker.began("go");
+    tracker.stopped("go");
+    tracker.stands(base, &[("arm_lift_joint".into(), 9.0)].into());
+    assert!(is_lost(&mut tracker));
     // What the hand holds behind a grasp that broke off is not known.
+    let mut tracker = session(&kitchen()).world_tracker().unwrap();
     tracker.began("pick");
     tracker.stopped("pick");
-    tracker.stands(base, &[].into());
-    assert!(matches!(motion(&tracker), Forecast::Unknown { .. }));
+    assert!(is_lost(&mut tracker));
+    // Nor is it where a grasp has succeeded before the robot's place was known.
+    let mut tracker = session(&kitchen()).world_tracker().unwrap();
+    tracker.began("go");
+    tracker.stopped("go");
+    tracker.began("pick");
+    tracker.succeeded("pick", &[("object".into(), Value::Entity("mug_1".into()))], None);
+    assert!(is_lost(&mut tracker));
+    // A thing was lost on the way.
+    let mut tracker = session(&kitchen()).world_tracker().unwrap();
+    tracker.began("go");
+    tracker.observed("holding", "mug_1", true);
+    tracker.stopped("go");
+    assert!(is_lost(&mut tracker));
 }
 
 #[test]

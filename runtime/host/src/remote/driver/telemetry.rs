@@ -18,6 +18,8 @@ pub(super) struct TelemetryQueue {
     heard: VecDeque<Heard>,
     /// Names of the joints and things of all reports.
     names: HashSet<SmolStr>,
+    /// Some were dropped.
+    has_cut: bool,
     /// Latest pose of the base.
     pub(super) base: Option<[f64; 3]>,
 }
@@ -33,7 +35,7 @@ impl TelemetryQueue {
     }
 
     /// Drops the joints and things of a report with which a run would have more than [`MAX_MOVED_NAMES`].
-    /// Returns whether there are any.
+    /// Returns whether there are any for the first time.
     pub(super) fn cut(&mut self, moved: &mut Moved) -> bool {
         let names = &mut self.names;
         let mut has_room = |name: &SmolStr| {
@@ -42,7 +44,8 @@ impl TelemetryQueue {
         let before = moved.joints.len() + moved.things.len();
         moved.joints.retain(|name, _| has_room(name));
         moved.things.retain(|thing| has_room(&thing.id));
-        moved.joints.len() + moved.things.len() < before
+        let is_cut = moved.joints.len() + moved.things.len() < before;
+        is_cut && !std::mem::replace(&mut self.has_cut, true)
     }
 
     pub(super) fn push_detected(&mut self, seen: Vec<Detection>) {
@@ -111,6 +114,7 @@ mod tests {
         let mut more = moved(0.0, 0.0, "7", &["mug"]);
         assert!(queue.cut(&mut more));
         assert_eq!((more.joints.len(), more.things.len()), (1, 0));
+        assert!(!queue.cut(&mut moved(0.0, 0.0, "7", &["cup"])), "it is told once");
     }
 
     #[test]
