@@ -135,8 +135,8 @@ impl Geometry {
         (geometry, Arc::new(fingerprinted(world)))
     }
 
-    /// The world in which the robot stands elsewhere: the pose of its base, and joints by name. `None` if a joint is
-    /// beyond its limits.
+    /// The world in which the robot stands elsewhere: the pose of its base, and joints by name. `None` if a
+    /// joint is beyond its limits.
     pub(super) fn standing(
         &self,
         at: &Fingerprinted,
