@@ -36,7 +36,7 @@ pub struct MendedMutant {
     pub mutant: Mutant,
     /// Titles of the fixes, in order.
     pub fixes: Vec<String>,
-    /// What becomes of it.
+    /// Result of the check and of the run after the fixes.
     pub end: MendedEnd,
 }
 

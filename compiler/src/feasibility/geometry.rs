@@ -44,7 +44,7 @@ struct Memo {
     told: FxHashMap<(Box<[u8]>, MotionQuery), Infeasible>,
 }
 
-/// How far beyond its limits a joint may be sensed, in rad or m.
+/// Tolerance of the limits of a joint that a driver reports, in rad or m.
 const SENSED: f64 = 0.02;
 
 /// World with its fingerprint; equal fingerprints mean equal worlds.

@@ -149,6 +149,10 @@ class Looker(Mover):
                 found |= self.eyes.known(wanted)
         return [one for one in wanted if one in found]
 
+    def sought(self, wanted, motion):
+        """Ids of the entities, of some, that the camera sees where they should be, or else about here."""
+        return (yield from self.seen(wanted, motion)) or (yield from self.seen_about(wanted, motion))
+
     def seen_about(self, wanted, motion):
         """Ids of the entities, of some whose place nobody knows, that the camera sees at the first place about here
         that shows any of them: in an open container before on a surface."""

@@ -411,7 +411,7 @@ class Tasks(Looker):
 
     def do_detect(self, args, motion):
         wanted = self.objects(args["what"]["text"])
-        found = (yield from self.seen(wanted, motion)) or (yield from self.seen_about(wanted, motion))
+        found = yield from self.sought(wanted, motion)
         yield from self.pause(0.3)
         if not found:
             raise Failed("not_found", "nothing in view is called %s" % args["what"]["text"])
@@ -455,7 +455,7 @@ class Tasks(Looker):
 
     def do_locate(self, args, motion):
         one = entity(args["object"])
-        found = (yield from self.seen([one], motion)) or (yield from self.seen_about([one], motion))
+        found = yield from self.sought([one], motion)
         if not found:
             raise Failed("not_found", "%s is not in view" % one)
         seen = self.eyes.pose(one)
@@ -472,7 +472,7 @@ class Tasks(Looker):
     def do_inspect(self, args, motion):
         one = entity(args["what"])
         if one in self.world.model.body_of:
-            found = (yield from self.seen([one], motion)) or (yield from self.seen_about([one], motion))
+            found = yield from self.sought([one], motion)
             if not found:
                 raise Failed("not_found", "%s is not in view" % one)
         self.observer.own.moved.add(one)

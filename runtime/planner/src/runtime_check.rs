@@ -108,7 +108,9 @@ impl Verifier for Guard {
     }
 
     fn moved(&mut self, moved: &Moved) {
-        self.tell(GuardMessage::Moved(moved.clone()));
+        // Where things are is not read off telemetry.
+        let (joints, things) = (moved.joints.clone(), Vec::new());
+        self.tell(GuardMessage::Moved(Moved { joints, things, ..*moved }));
     }
 
     fn effect(&mut self, effect: &Effect) {
@@ -159,7 +161,7 @@ pub(crate) fn grip(query: &Query, value: &Value) -> Option<Grip> {
 struct RunTracker {
     course: WorldTracker,
     live: BTreeMap<GoalId, Arc<Command>>,
-    /// Where the robot was, by the driver's latest report.
+    /// Latest place of the robot, by the driver's reports.
     stood: Option<Moved>,
 }
 

@@ -104,7 +104,7 @@ impl Machine {
         }
     }
 
-    /// What is known of the last state and of the lookahead states.
+    /// The last state and the lookahead states, with the findings that are stored in them.
     pub(super) fn findings(&self) -> (State, Vec<State>) {
         (self.state(), self.arenas.lookaheads.clone())
     }

@@ -471,7 +471,7 @@ pub(crate) const MAX_FACTS_A_SECOND: u32 = 2_000;
 pub(crate) const MAX_DETECTIONS_A_SECOND: u32 = 5_000;
 /// The longest line in bytes that tells a fact which is not watched. A driver that says a longer one counts
 /// as gone: such facts are kept until the run ends.
-pub(crate) const MAX_FACT_BYTES: u32 = 4_096;
+pub(crate) const MAX_FACT_BYTES: usize = 4_096;
 /// The most bytes of reports in a second of the wall clock. A driver that says more counts as gone: what is
 /// important would come too late.
 pub(crate) const MAX_REPORT_BYTES_A_SECOND: u32 = 32 * 1024 * 1024;

@@ -219,12 +219,12 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
             };
             let Some(planned) = planned else { continue };
             let end = self.run(planned, driver, &scene);
-            match (end, self.task.request == asked) {
-                (RoundResult::Over(Outcome::Done), true) => return SearchEnd::Found,
+            match (end, self.is_replaced(&asked)) {
+                (RoundResult::Over(Outcome::Done), false) => return SearchEnd::Found,
                 (RoundResult::Over(outcome), _) => return SearchEnd::Replaced(outcome),
-                (RoundResult::Round, true) => return SearchEnd::Missed,
-                (RoundResult::Problem(..), true) => {}
-                (_, false) => return SearchEnd::Replaced(self.pursue(driver)),
+                (RoundResult::Round, false) => return SearchEnd::Missed,
+                (RoundResult::Problem(..), false) => {}
+                (_, true) => return SearchEnd::Replaced(self.pursue(driver)),
             }
         }
         SearchEnd::Missed

@@ -64,17 +64,13 @@ impl RemoteDriver {
             {
                 self.broke(&LinkError::Hasty(MAX_REPORT_BYTES_A_SECOND, "bytes of reports"));
             }
-            Ok(DriverMessage::Report(DriverReport::Observed(observed)))
-                if line.len() > MAX_FACT_BYTES as usize && !self.watches.contains(&observed.query) =>
-            {
-                self.broke(&LinkError::LongFact);
-            }
-            Ok(DriverMessage::Report(report)) => self.told(report),
+            Ok(DriverMessage::Report(report)) => self.told(report, line.len()),
             Err(why) => self.broke(&nonsense(line, why)),
         }
     }
 
-    fn told(&mut self, report: DriverReport) {
+    /// Takes in a report, which was said in so many bytes.
+    fn told(&mut self, report: DriverReport, bytes: usize) {
         match report {
             DriverReport::Ended(ended) => {
                 let (goal, outcome) = (ended.goal, self.named(ended.outcome));
@@ -110,14 +106,17 @@ impl RemoteDriver {
                     self.report(DriverEvent::Lost { goal });
                 }
             }
-            DriverReport::Observed(observed)
-                if !self.watches.contains(&observed.query)
-                    && self.facts.exceeds(MAX_FACTS_A_SECOND, self.heard_at) =>
-            {
-                self.broke(&LinkError::Hasty(MAX_FACTS_A_SECOND, "`observed` that are not watched"));
-            }
             DriverReport::Observed(observed) => {
                 let (query, answer) = (observed.query, observed.answer);
+                if !self.watches.contains(&query) {
+                    if bytes > MAX_FACT_BYTES {
+                        return self.broke(&LinkError::LongFact);
+                    }
+                    if self.facts.exceeds(MAX_FACTS_A_SECOND, self.heard_at) {
+                        let what = "`observed` that are not watched";
+                        return self.broke(&LinkError::Hasty(MAX_FACTS_A_SECOND, what));
+                    }
+                }
                 self.report(DriverEvent::Observed { query, answer });
             }
             DriverReport::Feedback(feedback) if self.outbox.len() >= MOST_WORDS => {
