@@ -13,10 +13,9 @@ if ! ./netns.sh true 2>/dev/null; then
     exit 0
 fi
 venv="$target/ros2-venv"
-if [ ! -x "$venv/bin/pytest" ]; then
-    python3 -m venv "$venv"
-    "$venv/bin/pip" install --quiet -r requirements.txt || { rm -r "$venv"; echo 'the Python packages cannot be installed: skipped'; exit 0; }
-fi
+[ -x "$venv/bin/pip" ] || python3 -m venv "$venv"
+# Also where the environment stands already: the requirements may have changed since.
+"$venv/bin/pip" install --quiet -r requirements.txt || { echo 'the Python packages cannot be installed: skipped'; exit 0; }
 if [ -z "${MOTET_ROS2:-}" ]; then
     CARGO_TARGET_DIR="$target" cargo build --locked --quiet -p motet-ros2
     export MOTET_ROS2="$target/debug/motet-ros2"
