@@ -236,6 +236,12 @@ impl Session {
         self.environment.is_description(text)
     }
 
+    /// Returns whether a text that begins like that may describe an entity of the scene.
+    #[must_use]
+    pub fn may_describe(&self, begun: &str) -> bool {
+        self.environment.begins_description(begun)
+    }
+
     /// Names and types that a policy for this robot and scene may use. Computed once for all sessions derived
     /// from one another with the same entities: these share one [`Arc`].
     ///

@@ -214,6 +214,12 @@ impl Environment {
         (may_be || !description.is_ascii()) && self.descriptions.contains_key(&normal(description))
     }
 
+    /// Returns whether a text that begins like that may describe an entity. O(descriptions).
+    pub(crate) fn begins_description(&self, begun: &str) -> bool {
+        let wanted = normal(begun);
+        !begun.is_ascii() || self.descriptions.keys().any(|description| description.starts_with(&wanted))
+    }
+
     /// A number of an entity of the scene, in SI units: `mass`, `width`, or a field of its own.
     pub(crate) fn number(&self, entity: Entity, field: &str) -> Option<f64> {
         if entity == ROBOT {

@@ -237,7 +237,7 @@ impl Machine {
     }
 
     /// A pose that is written out may be the next argument of the call that is being written.
-    fn takes_pose(&self, state: &State) -> bool {
+    fn takes_pose(&mut self, state: &State) -> bool {
         let call = self.call_so_far(state.event);
         call.is_some_and(|(callable, _, before)| {
             let site = self.site_of(callable, self.site(state, before));
@@ -523,9 +523,18 @@ impl Machine {
         let Op::Text { arg: Some(_) } = self.context.automaton.op(op) else { return false };
         let Some((callable, _, before)) = self.call_so_far(state.event) else { return false };
         let made = self.context.automaton.callables.get(usize::from(callable));
+        let is_policy = made.is_none_or(|made| made.primitive.is_none());
+        let compares = made.is_some_and(|made| made.template.as_ref().is_some_and(|made| made.compares()));
         let site = self.site(&state, before);
-        made.is_none_or(|made| made.primitive.is_none())
-            || self.site_of(callable, site).is_none_or(|site| site.shared)
+        if !is_policy && self.site_of(callable, site).is_some_and(|site| !site.shared) {
+            return false;
+        }
+        // A text that describes no entity is as good as any other.
+        let begun = self.written(state.pos).and_then(|(start, len)| {
+            let bytes = self.bytes.get(start as usize..start.saturating_add(len) as usize);
+            bytes.and_then(|bytes| std::str::from_utf8(bytes).ok())
+        });
+        compares || begun.is_none_or(|begun| self.context.session.may_describe(begun))
     }
 
     /// A text can be an argument of the call that is being written; the entity that it describes may
@@ -534,13 +543,13 @@ impl Machine {
         let Some((callable, mut given, before)) = self.call_so_far(state.event) else { return true };
         let made = self.context.automaton.callables.get(usize::from(callable));
         let is_policy = made.is_some_and(|made| made.primitive.is_none());
+        // The needs of a policy may compare a text.
+        let is_plain = made.is_some_and(|made| made.template.as_ref().is_none_or(|made| !made.compares()));
         let site = self.site(state, before);
         if !is_policy && !site.shared {
             return true;
         }
         let Some(site) = self.site_of(callable, site) else { return false };
-        // The needs of a policy may compare a text.
-        let is_plain = made.is_some_and(|made| made.template.as_ref().is_none_or(|made| !made.compares()));
         let text = if is_plain { self.plain_text(text) } else { text };
         given.push(Argument::One(text));
         self.completes_call(callable, &mut given, site)

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::context::Context;
 use super::event_log::{ArenaMark, Arenas, CallFrame, Event, Id, State, UNSEEN};
+use super::independence::OpenNodes;
 use super::proof_cursor::Oracle;
 use crate::automaton::{Op, OpId, WordEnd};
 use crate::grammar::Guard;
@@ -44,6 +45,7 @@ pub(crate) struct Machine {
     /// The bytes that are being taken together, and where they begin: of a list of words only those are
     /// judged that agree with them.
     pub(super) taken: Option<(usize, Vec<u8>)>,
+    pub(super) open: OpenNodes,
 }
 
 impl Machine {
@@ -61,6 +63,7 @@ impl Machine {
             budget,
             oracle: Oracle::default(),
             taken: None,
+            open: OpenNodes::default(),
         })
     }
 

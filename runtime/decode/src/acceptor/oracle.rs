@@ -85,12 +85,12 @@ impl Machine {
     /// The proof at the place of the next step, behind `event`; `None` if it is wrong up to there, or if no
     /// effort is left for it.
     fn place(&mut self, event: Id) -> Option<(&mut IncrementalChecker, &Session)> {
-        let (before, mut events) = self.arenas.present(event, &[]);
-        let transcript = Transcript { context: &self.context, arenas: &self.arenas, bytes: &self.bytes };
-        let hash = transcript.arenas.hash(event);
         if is_used_up() {
             return None;
         }
+        let (before, mut events) = self.arenas.present(event, &[]);
+        let transcript = Transcript { context: &self.context, arenas: &self.arenas, bytes: &self.bytes };
+        let hash = transcript.arenas.hash(event);
         if self.oracle.stands != Some(hash) {
             self.oracle.stands = None;
             let draft = self.oracle.place.follow(&transcript, before)?;
@@ -158,16 +158,19 @@ impl Machine {
     }
 
     /// The site of a call; `None` if a concurrent branch holds a resource that the callable needs.
-    pub(crate) fn site_of(&self, callable: u16, site: CallSite) -> Option<CallSite> {
+    pub(crate) fn site_of(&mut self, callable: u16, site: CallSite) -> Option<CallSite> {
         let made = self.context.automaton.callables.get(usize::from(callable))?;
         // A step of a policy may be one that no cleanup may have.
         let is_policy = site.cleans && made.primitive.is_none();
         if !site.shared && !is_policy {
             return Some(site);
         }
-        let is_free = made.uses & self.resources_taken(site.event) == 0;
+        let uses = made.uses;
+        if uses & self.resources_taken(site.event) != 0 {
+            return None;
+        }
         let call = [Event::Open(NodeKind::Do(callable)), Event::Close];
-        is_free.then(|| CallSite { shared: is_policy || !self.is_independent(site.event, &call), ..site })
+        Some(CallSite { shared: is_policy || !self.is_independent(site.event, &call), ..site })
     }
 
     /// Some arguments complete a call of the callable.

@@ -98,7 +98,7 @@ impl Machine {
     /// monitors ask for.
     pub(super) fn probe_callables(&mut self, site: CallSite, policies: bool) {
         let key = mix(self.key(Question::Probed, site.event, None), u64::from(policies));
-        if self.known(key).is_some() {
+        if is_used_up() || self.known(key).is_some() {
             return;
         }
         let context = Arc::clone(&self.context);
@@ -126,7 +126,7 @@ impl Machine {
         values: &[Event],
         site: CallSite,
     ) {
-        if !site.shared {
+        if !site.shared || is_used_up() {
             return;
         }
         let mut calls = Vec::new();
@@ -144,11 +144,8 @@ impl Machine {
         let Some((fluent, place)) = self.fluent_so_far(event) else { return };
         let params = self.context.automaton.fluents.get(usize::from(fluent)).map_or(0, Vec::len);
         let Some(wait) = self.open_wait(event).filter(|_| place + 1 == params) else { return };
-        let choices: Vec<Vec<Event>> = values
-            .iter()
-            .filter(|value| !self.is_independent(event, &[**value]))
-            .map(|value| vec![*value])
-            .collect();
+        let mut choices: Vec<Vec<Event>> = values.iter().map(|value| vec![*value]).collect();
+        choices.retain(|choice| !self.is_independent(event, choice));
         self.probe((wait, event), &choices);
     }
 

@@ -335,7 +335,7 @@ impl Machine {
     }
 
     /// The start and length of the last `count` bytes.
-    fn written(&self, count: u32) -> Option<(u32, u32)> {
+    pub(super) fn written(&self, count: u32) -> Option<(u32, u32)> {
         let start = u32::try_from(self.bytes.len()).ok()?.checked_sub(count)?;
         Some((start, count))
     }
