@@ -121,7 +121,10 @@ impl Decoder {
         let tokens = vocabulary.tokens();
         let machine = &mut acceptor.machine;
         match machine.free_text(tokens.longest) {
-            Some(Free::Text { pos }) => machine.mask_text(tokens, pos, set),
+            Some(Free::Text { pos }) => {
+                machine.mask_text(tokens, pos, set);
+                machine.exclude_long(tokens, pos, set);
+            }
             Some(Free::Name { pos, most }) => {
                 let names = if pos == 0 { &tokens.first_names } else { &tokens.names };
                 if let Some(names) = names.get(most) {
@@ -221,7 +224,7 @@ impl Machine {
         let pos = state.pos as usize;
         let (free, op) = match automaton.op(state.op) {
             Op::Text { .. } if state.lo != UNSEEN || state.hi != UNSEEN => return None,
-            Op::Text { .. } if pos + longest < MAX_TEXT_CHARS => (Free::Text { pos }, state.op),
+            Op::Text { .. } => (Free::Text { pos }, state.op),
             Op::Fork { byte: b'$', other, .. } if text(*other) => (Free::Text { pos }, *other),
             Op::Name(_) => (Free::Name { pos, most: MAX_NAME_CHARS.saturating_sub(pos) }, state.op),
             _ => return None,
@@ -257,6 +260,21 @@ impl Machine {
             row.within.iter().for_each(|token| set.allow_token(*token));
             if pos > 0 {
                 row.bare.iter().chain(&row.dollars).for_each(|token| set.allow_token(*token));
+            }
+        }
+    }
+
+    /// Removes the tokens with which the text, of `pos` bytes so far, would be too long.
+    fn exclude_long(&mut self, tokens: &Tokens, pos: usize, set: &mut SimpleVob) {
+        let left = MAX_TEXT_CHARS.saturating_sub(pos);
+        let long = tokens.by_length.iter().take_while(|token| tokens.trie.token_len(**token) > left);
+        for token in long.filter(|token| set.is_allowed(**token)).copied().collect::<Vec<_>>() {
+            let (bytes, before) = (tokens.trie.token(token), self.bytes.len());
+            // It may end the text earlier.
+            let fits = bytes.contains(&b'"') && bytes.iter().all(|byte| self.push(*byte));
+            self.pop(self.bytes.len().saturating_sub(before));
+            if !fits {
+                set.disallow_token(token);
             }
         }
     }

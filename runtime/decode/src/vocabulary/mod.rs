@@ -65,6 +65,8 @@ pub(crate) struct Tokens {
     /// Tokens of a space, a name, and the space that ends it.
     pub(crate) spaced_name_ends: TokTrie,
     pub(crate) longest: usize,
+    /// The tokens that have bytes, the longest first.
+    pub(crate) by_length: Vec<u32>,
     pub(crate) end: u32,
     /// Tokens with the bytes of an earlier one, which stands for them in the tries, sorted by number.
     pub(crate) twins: Vec<(u32, u32)>,
@@ -173,6 +175,9 @@ impl Vocabulary {
         let text_ends = trie.filter(&text_ends);
         let (name_ends, bare_name_ends) = (name_ends(b'"'), name_ends(b' '));
         let longest = trie.max_token_len();
+        let mut by_length: Vec<u32> = (0..size).collect();
+        by_length.retain(|id| !trie.token(*id).is_empty());
+        by_length.sort_by_key(|id| std::cmp::Reverse(trie.token_len(*id)));
         let (first_names, names) = (names(&first_name), names(&name));
         let tree = Tree::new(&trie);
         Self(Arc::new(Tokens {
@@ -192,6 +197,7 @@ impl Vocabulary {
             spaced_names,
             spaced_name_ends,
             longest,
+            by_length,
             end,
             twins,
         }))
