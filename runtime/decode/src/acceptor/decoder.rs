@@ -11,7 +11,7 @@ use super::lookahead::ByteSet;
 use super::machine::Machine;
 use super::{Acceptor, AcceptorFactory};
 use crate::automaton::Op;
-use crate::subset::{Digits, MAX_NAME_CHARS, MAX_TEXT_CHARS, NumberRange};
+use crate::subset::{Digits, MAX_NAME_CHARS, MAX_TEXT_CHARS, NumberRange, is_brace};
 use crate::vocabulary::{Node, Tokens, Tree, Vocabulary};
 
 /// Follows a policy token by token and computes token masks. One policy, one thread at a time; clone it to
@@ -267,11 +267,13 @@ impl Machine {
     /// Removes the tokens with which the text, of `pos` bytes so far, would be too long.
     fn exclude_long(&mut self, tokens: &Tokens, pos: usize, set: &mut SimpleVob) {
         let left = MAX_TEXT_CHARS.saturating_sub(pos);
-        let long = tokens.by_length.iter().take_while(|token| tokens.trie.token_len(**token) > left);
+        let long = tokens.by_length.iter().take_while(|token| tokens.trie.token_len(**token) >= left);
         for token in long.filter(|token| set.is_allowed(**token)).copied().collect::<Vec<_>>() {
             let (bytes, before) = (tokens.trie.token(token), self.bytes.len());
-            // It may end the text earlier.
-            let fits = bytes.contains(&b'"') && bytes.iter().all(|byte| self.push(*byte));
+            // It may end the text earlier; a single brace at its end asks for one more.
+            let is_open = bytes.iter().any(|byte| *byte == b'"' || is_brace(*byte));
+            let is_plain = bytes.len() == left && !is_open;
+            let fits = is_plain || is_open && bytes.iter().all(|byte| self.push(*byte));
             self.pop(self.bytes.len().saturating_sub(before));
             if !fits {
                 set.disallow_token(token);

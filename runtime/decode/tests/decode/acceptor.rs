@@ -7,7 +7,7 @@ use crate::common::{SETTINGS, errors, session};
 use motet_compiler::Session;
 use motet_compiler::incremental::IncrementalChecker;
 use motet_compiler::signature::Type;
-use motet_decode::{AcceptorFactory, Grammar, Modifiers, Subset, Vocabulary, canonical};
+use motet_decode::{AcceptorFactory, Decoder, Grammar, Modifiers, Subset, Vocabulary, canonical};
 use motet_syntax::{FileId, Source, Syntax};
 
 fn subset(modifiers: Modifiers) -> Subset {
@@ -313,25 +313,12 @@ fn decoder_mask_in_text_equals_accepted_tokens() {
 fn compare_masks(syntax: Syntax) {
     let session = session("hsr", "kitchen");
     let factory = AcceptorFactory::new(&session, Subset { syntax, ..subset(Modifiers::Default) });
-    let tokens = tokens();
-    let vocabulary = Vocabulary::new(&tokens, END);
-    let count = u32::try_from(vocabulary.len()).unwrap();
+    let vocabulary = Vocabulary::new(&tokens(), END);
     for seed in 0..6 {
         let mut dice = Dice::new(seed);
         let mut decoder = factory.decoder(&vocabulary, 700).unwrap();
         for _ in 0..150 {
-            let mask = decoder.mask().to_vec();
-            let is_set = |token: u32| mask[token as usize / 32] >> (token % 32) & 1 == 1;
-            for token in 0..count {
-                let accepted = decoder.accept(token);
-                if accepted {
-                    decoder.rollback(1);
-                }
-                let after = String::from_utf8_lossy(decoder.acceptor().bytes()).into_owned();
-                let text = String::from_utf8_lossy(vocabulary.bytes(token)).into_owned();
-                assert_eq!(is_set(token), accepted, "{seed}: `{text}` after {after}");
-            }
-            let open: Vec<u32> = (0..count).filter(|token| is_set(*token)).collect();
+            let open = compare_mask(&mut decoder, &vocabulary);
             assert!(!open.is_empty(), "{seed}: nothing may follow");
             // Long tokens lead further.
             let long: Vec<u32> = open.iter().copied().filter(|token| *token >= 256).collect();
@@ -339,6 +326,50 @@ fn compare_masks(syntax: Syntax) {
             assert!(decoder.accept(from[dice.below(from.len())]));
             if !decoder.mask().iter().any(|word| *word != 0) {
                 break;
+            }
+        }
+    }
+}
+
+/// Most characters of a text.
+const MAX_TEXT_CHARS: usize = 200;
+
+/// Compares a mask with the tokens that are accepted, and gives them.
+fn compare_mask(decoder: &mut Decoder, vocabulary: &Vocabulary) -> Vec<u32> {
+    let count = u32::try_from(vocabulary.len()).unwrap();
+    let mask = decoder.mask().to_vec();
+    let is_set = |token: u32| mask[token as usize / 32] >> (token % 32) & 1 == 1;
+    for token in 0..count {
+        let accepted = decoder.accept(token);
+        if accepted {
+            decoder.rollback(1);
+        }
+        let after = String::from_utf8_lossy(decoder.acceptor().bytes()).into_owned();
+        let text = String::from_utf8_lossy(vocabulary.bytes(token)).into_owned();
+        assert_eq!(is_set(token), accepted, "`{text}` after {after}");
+    }
+    (0..count).filter(|token| is_set(*token)).collect()
+}
+
+#[test]
+fn decoder_mask_of_a_long_text_equals_accepted_tokens() {
+    let session = session("hsr", "kitchen");
+    let factory =
+        AcceptorFactory::new(&session, Subset { syntax: Syntax::Text, ..subset(Modifiers::Default) });
+    let vocabulary = Vocabulary::new(&tokens(), END);
+    // Beside a branch the entity that a text describes may matter.
+    for before in ["policy p for hsr { say(\"", "policy p for hsr { parallel { { let a = detect(\""] {
+        let mut decoder = factory.decoder(&vocabulary, 2000).unwrap();
+        let taken = before.bytes().take_while(|byte| decoder.accept(u32::from(*byte))).count();
+        assert_eq!(taken, before.len(), "{}", &before[taken..]);
+        for length in 0..=MAX_TEXT_CHARS {
+            if length < 4 || length + 40 > MAX_TEXT_CHARS {
+                assert!(!compare_mask(&mut decoder, &vocabulary).is_empty());
+            }
+            let takes = decoder.accept(u32::from(if length == 1 { b'{' } else { b'e' }));
+            assert_eq!(takes, length < MAX_TEXT_CHARS && length != 2, "{length}");
+            if length == 2 {
+                assert!(decoder.accept(u32::from(b'{')));
             }
         }
     }
