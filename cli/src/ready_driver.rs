@@ -7,7 +7,7 @@ use motet::driver_camera::DriverCamera;
 use motet::run::{remote_settings, state_facts};
 use motet_graph::Graph;
 use motet_host::remote::protocol::Hello;
-use motet_host::remote::{DriverAddress, DriverTimeouts, RemoteDriver};
+use motet_host::remote::{DriverAddress, DriverLog, DriverTimeouts, ErrorOutput, LineFrom, RemoteDriver};
 use motet_project::{DiagnosticSink, ProjectSession, SavedDriver, SavedProject, named_robot};
 use motet_runtime::{Driver, DriverClock, EngineSettings, Time};
 use motet_sim::Sim;
@@ -160,9 +160,31 @@ pub(crate) fn no_robot(wanted: Option<String>) -> CliError {
     }
 }
 
+/// Log of a driver whose standard error is escaped as all texts of others are.
+pub(crate) struct WithErrors(pub(crate) Box<dyn DriverLog>);
+
+impl DriverLog for WithErrors {
+    fn note(&mut self, text: &str) {
+        self.0.note(text);
+    }
+
+    fn breach(&mut self, text: &str) {
+        self.0.breach(text);
+    }
+
+    fn line(&mut self, from: LineFrom, line: &str) {
+        self.0.line(from, line);
+    }
+
+    fn error_output(&self) -> Option<ErrorOutput> {
+        Some(note)
+    }
+}
+
 /// Starts a driver process, or connects to it.
 pub(crate) fn connect(address: &DriverAddress, hello: Hello, from: Time) -> Result<RemoteDriver, CliError> {
     let log = |text: &str| note(&format!("driver: {}", escape(text)));
-    RemoteDriver::connect(address.clone(), hello, DriverTimeouts::default(), from, Box::new(log))
+    let log = Box::new(WithErrors(Box::new(log)));
+    RemoteDriver::connect(address.clone(), hello, DriverTimeouts::default(), from, log)
         .map_err(|breakage| CliError::Message(format!("{} ({address})", escape(&breakage.to_string()))))
 }

@@ -335,7 +335,8 @@ fn driver_texts_neither_steer_the_terminal_nor_fill_it() {
     let start = "    if m['method'] == 'start':\n        say({'id': m['id'], 'result': {}})\n";
     let ends = |kind: &str| {
         format!(
-            "{start}        say({{'method': 'feedback', 'params': {{'goal': m['params']['goal'], 'text': \
+            "{start}        print('b\\x1b[31mc', file=sys.stderr)\n        \
+             say({{'method': 'feedback', 'params': {{'goal': m['params']['goal'], 'text': \
                 'a\\x1b[2Jb', 'own_motion': True}}}})\n        \
              say({{'method': 'ended', 'params': {{'goal': m['params']['goal'], 'outcome': {{'failure': \
                  {kind}}}}}}})\n"
@@ -358,10 +359,28 @@ fn driver_texts_neither_steer_the_terminal_nor_fill_it() {
         let driver = place.path(name);
         std::fs::write(&driver, odd(&ends(kind))).unwrap();
         let ran = place.run_args(&driven("away.motet", &format!("python3 '{}'", driver.display())));
-        ran.check(3, texts).check(3, &["err:a motion of its own: a\\u{1b}[2Jb"]);
+        ran.check(3, texts).check(3, &["err:a motion of its own: a\\u{1b}[2Jb", "err:b\\u{1b}[31mc"]);
         let shown = format!("{}{}", ran.stdout, ran.stderr);
         assert!(!shown.contains('\u{1b}') && shown.len() < 10_000, "{ran:#?}");
         assert!(!ran.stdout.contains("simulated"), "{ran:#?}");
+    }
+}
+
+#[test]
+fn driver_errors_come_whole_and_a_flood_of_them_is_cut() {
+    if !has_python() {
+        return;
+    }
+    let place = Place::new("drive_errors").file("away.motet", AWAY);
+    let dies = "    if m['method'] == 'start':\n        raise SystemExit('no motor')\n";
+    let floods = "    if m['method'] == 'start':\n        sys.stderr.write('x' * 9000 + '\\n' + 'y\\n' * 200000)\n        \
+                  raise SystemExit('no motor')\n";
+    for (name, script) in [("dies", dies), ("floods", floods)] {
+        let driver = place.path(name);
+        std::fs::write(&driver, odd(script)).unwrap();
+        let ran = place.run_args(&driven("away.motet", &format!("python3 '{}'", driver.display())));
+        assert!(ran.stderr.contains("no motor") || ran.stderr.contains("bytes left out)"), "{ran:#?}");
+        assert!(ran.stderr.lines().count() < 20_000, "{name}");
     }
 }
 

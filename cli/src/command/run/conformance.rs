@@ -17,7 +17,7 @@ use crate::error::{CliError, Exit};
 use crate::flags::{OutputFormat, folder_of};
 use crate::interrupt::{catch_interrupts, is_interrupted};
 use crate::output::{count, escape, note};
-use crate::ready_driver::address;
+use crate::ready_driver::{WithErrors, address};
 use crate::report::Report;
 
 /// Robot whose `say` a check uses where none is named.
@@ -43,6 +43,7 @@ pub(super) fn check(file: Option<&Path>, args: &RunArgs, report: &mut Report) ->
     catch_interrupts()?;
     let mut connect = |log: Box<dyn DriverLog>| {
         let hello = Hello { state: state_facts(&opened), ..Hello::of(&graph, &run_id()) };
+        let log = Box::new(WithErrors(log));
         RemoteDriver::connect(address.clone(), hello, DriverTimeouts::default(), Time::ZERO, log)
             .map_err(|breakage| format!("{} ({})", escape(&breakage.to_string()), address))
     };

@@ -1,5 +1,6 @@
 //! Position where a driver is: a command to start, or a port of this machine.
 
+use super::driver::ErrorOutput;
 use super::link::{KeepAlive, Link, LinkError};
 use std::fmt;
 use std::io::{BufReader, Write};
@@ -100,7 +101,12 @@ fn words(text: &str) -> Result<Vec<String>, DriverAddressError> {
 
 impl DriverAddress {
     /// Starts or calls the driver.
-    pub(super) fn open(&self, within: Duration, keep_alive: KeepAlive) -> Result<Link, LinkError> {
+    fn open(
+        &self,
+        within: Duration,
+        keep_alive: KeepAlive,
+        errors: Option<ErrorOutput>,
+    ) -> Result<Link, LinkError> {
         match self {
             Self::Command(words) => {
                 let (program, args) = words.split_first().ok_or(LinkError::Closed)?;
@@ -112,9 +118,10 @@ impl DriverAddress {
                     .args(args)
                     .stdin(Stdio::piped())
                     .stdout(Stdio::piped())
+                    .stderr(if errors.is_some() { Stdio::piped() } else { Stdio::inherit() })
                     .spawn()
                     .map_err(|error| LinkError::NotReached(error.to_string()))?;
-                Link::of_child(child, keep_alive)
+                Link::of_child(child, keep_alive, errors)
             }
             Self::Tcp(socket) => {
                 let stream = TcpStream::connect_timeout(socket, within)
@@ -147,9 +154,14 @@ impl Route {
     }
 
     /// Starts or calls the driver.
-    pub(super) fn open(&mut self, within: Duration, keep_alive: KeepAlive) -> Result<Link, LinkError> {
+    pub(super) fn open(
+        &mut self,
+        within: Duration,
+        keep_alive: KeepAlive,
+        errors: Option<ErrorOutput>,
+    ) -> Result<Link, LinkError> {
         match self {
-            Self::Address(address) => address.open(within, keep_alive),
+            Self::Address(address) => address.open(within, keep_alive, errors),
             #[cfg(unix)]
             Self::Stream(stream) => {
                 let stream = stream.take().ok_or(LinkError::Closed)?;

@@ -5,14 +5,12 @@ mod carry_out;
 mod goals;
 mod hear;
 mod log;
-mod rate;
 mod run_time;
 mod telemetry;
 
-pub use self::log::{DriverLog, LineFrom};
+pub use self::log::{DriverLog, ErrorOutput, LineFrom};
 
 use self::goals::GoalLedger;
-use self::rate::LineRate;
 use self::run_time::RunTime;
 use self::telemetry::TelemetryQueue;
 use super::connect::{DriverAddress, Route};
@@ -21,6 +19,7 @@ use super::protocol::{
     DriverCall, DriverMessage, DriverTimeouts, EmptyParams, GoalParams, GoalStatus, Hello, MAX_BREACHES,
     MAX_WAITING, QueryParams, StatusResult, VERSION, Welcome, hear, say,
 };
+use super::rate::LineRate;
 use motet_graph::Graph;
 use motet_runtime::journal::{OpenGoal, OpenGoals};
 use motet_runtime::{Capabilities, Driver, DriverClock, DriverEvent, Effect, Event, GoalId, Query, Time};
@@ -186,7 +185,7 @@ impl RemoteDriver {
             say(id, &DriverCall::Ping(EmptyParams {}), None)
         };
         let keep_alive = KeepAlive { line: Box::new(ping), after: self.patience.heartbeat * 2 };
-        let link = self.route.open(self.patience.greeting, keep_alive)?;
+        let link = self.route.open(self.patience.greeting, keep_alive, self.log.error_output())?;
         self.greet_on(link)
     }
 

@@ -1,9 +1,12 @@
 //! Lines to and from a driver. Two threads read and write, so that a driver that does not listen holds up
 //! nobody.
 
+use super::driver::ErrorOutput;
 use super::protocol::{
-    MAX_BEFORE_ANSWER, MAX_BREACHES, MAX_FACT_BYTES, MAX_LINE_BYTES, MAX_LOOK_BYTES, MAX_WAITING,
+    MAX_BEFORE_ANSWER, MAX_BREACHES, MAX_ERROR_LINE_BYTES, MAX_ERROR_LINES_A_SECOND, MAX_FACT_BYTES,
+    MAX_LINE_BYTES, MAX_LOOK_BYTES, MAX_WAITING,
 };
+use super::rate::LineRate;
 use motet_runtime::Time;
 use std::fmt;
 use std::io::{self, BufRead, BufReader, Read, Write};
@@ -107,6 +110,8 @@ pub(super) struct Link {
     awaits_picture: Arc<AtomicBool>,
     /// True where the link says something by itself while the host is busy.
     keeps_alive: Arc<AtomicBool>,
+    /// Passes the standard error of a process on.
+    errors: Option<JoinHandle<()>>,
 }
 
 /// Sign of life that the link gives by itself: its line, asked for anew each time, and after what silence of
@@ -130,7 +135,7 @@ impl Link {
         let (picture, is_alive) = (Arc::clone(&awaits_picture), Arc::clone(&keeps_alive));
         thread::spawn(move || listen(reader, &tell, &picture));
         let speaker = thread::spawn(move || speak(writer, &lines, &keep_alive, &is_alive));
-        Self { heard, said, speaker, peer, awaits_picture, keeps_alive }
+        Self { heard, said, speaker, peer, awaits_picture, keeps_alive, errors: None }
     }
 
     /// Lets the link give signs of life by itself from now on.
@@ -143,13 +148,20 @@ impl Link {
         self.awaits_picture.store(is_due, Ordering::SeqCst);
     }
 
-    pub(super) fn of_child(mut child: Child, keep_alive: KeepAlive) -> Result<Self, LinkError> {
-        match (child.stdout.take(), child.stdin.take()) {
-            (Some(stdout), Some(stdin)) => {
-                Ok(Self::new(BufReader::new(stdout), Box::new(stdin), Peer::Process(child), keep_alive))
-            }
-            (_, _) => Err(LinkError::Closed),
-        }
+    pub(super) fn of_child(
+        mut child: Child,
+        keep_alive: KeepAlive,
+        errors: Option<ErrorOutput>,
+    ) -> Result<Self, LinkError> {
+        let (Some(stdout), Some(stdin)) = (child.stdout.take(), child.stdin.take()) else {
+            return Err(LinkError::Closed);
+        };
+        let errors = errors
+            .zip(child.stderr.take())
+            .map(|(take, stderr)| thread::spawn(move || pass_errors(BufReader::new(stderr), take)));
+        let mut link = Self::new(BufReader::new(stdout), Box::new(stdin), Peer::Process(child), keep_alive);
+        link.errors = errors;
+        Ok(link)
     }
 
     /// Says a line; it is not waited for.
@@ -194,6 +206,9 @@ impl Link {
                     let _ = child.kill();
                     let _ = child.wait();
                 }
+                // What it has written is passed on, also where it ended by itself.
+                let due = Instant::now() + MOMENT;
+                wait_for(due, || self.errors.as_ref().is_none_or(JoinHandle::is_finished));
             }
             Peer::Socket(stream) => {
                 let _ = stream.shutdown(Shutdown::Both);
@@ -231,6 +246,29 @@ fn wait_for(due: Instant, mut is_true: impl FnMut() -> bool) -> bool {
             return false;
         }
         thread::sleep(Duration::from_millis(5));
+    }
+}
+
+/// Passes the standard error of a driver on, line by line. A line that is too long is cut in two, and what
+/// comes too fast is left out: a flood slows nobody down.
+fn pass_errors(mut reader: impl BufRead, take: ErrorOutput) {
+    let mut rate = LineRate::default();
+    let mut bytes = Vec::new();
+    let mut left_out: u64 = 0;
+    while let Ok(read @ 1..) = reader.by_ref().take(MAX_ERROR_LINE_BYTES).read_until(b'\n', &mut bytes) {
+        if !rate.exceeds(MAX_ERROR_LINES_A_SECOND, Instant::now()) {
+            if left_out > 0 {
+                take(&format!("… ({left_out} bytes left out)"));
+                left_out = 0;
+            }
+            take(String::from_utf8_lossy(&bytes).trim_end_matches(['\n', '\r']));
+        } else {
+            left_out += read as u64;
+        }
+        bytes.clear();
+    }
+    if left_out > 0 {
+        take(&format!("… ({left_out} bytes left out)"));
     }
 }
 

@@ -9,8 +9,9 @@ mod connect;
 mod driver;
 mod link;
 pub mod protocol;
+mod rate;
 
 pub use connect::{DriverAddress, DriverAddressError};
-pub use driver::{DriverLog, LineFrom, RemoteDriver};
+pub use driver::{DriverLog, ErrorOutput, LineFrom, RemoteDriver};
 pub use link::LinkError;
 pub use protocol::DriverTimeouts;

@@ -461,6 +461,10 @@ pub(crate) const MAX_KIND_BYTES: usize = 64;
 /// The most lines that a driver may say in a second of the wall clock. One that says more counts as gone:
 /// what is important would come too late.
 pub(crate) const MAX_LINES_A_SECOND: u32 = 20_000;
+/// The longest part in bytes of a line of a driver's standard error that is passed on at once.
+pub(crate) const MAX_ERROR_LINE_BYTES: u64 = 4096;
+/// The most lines of a driver's standard error in a second of the wall clock that are passed on.
+pub(crate) const MAX_ERROR_LINES_A_SECOND: u32 = 1_000;
 /// The most feedback of a driver in a second of the wall clock that is shown and recorded.
 pub(crate) const MAX_FEEDBACK_A_SECOND: u32 = 200;
 /// The most facts that a driver may report in a second of the wall clock without being asked to watch them.

@@ -12,7 +12,16 @@ pub trait DriverLog {
 
     /// A line is said or was heard.
     fn line(&mut self, _from: LineFrom, _line: &str) {}
+
+    /// Function that takes each line of the standard error of a driver that is started, on a thread of its
+    /// own. Without it the driver has that of this process.
+    fn error_output(&self) -> Option<ErrorOutput> {
+        None
+    }
 }
+
+/// Function that takes a line of the standard error of a driver.
+pub type ErrorOutput = fn(&str);
 
 impl<F: FnMut(&str)> DriverLog for F {
     fn note(&mut self, text: &str) {
