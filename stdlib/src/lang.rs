@@ -3,6 +3,30 @@
 //! Every other name is data. The compiler looks these up once, and a test of it checks that `motet/*.motet`
 //! declares each of them.
 
+/// Words of the language that are never a bare name in the text syntax: the rule `reserved` of its grammar.
+pub const RESERVED: [&str; 26] = [
+    "let", "sequence", "if", "else", "wait", "until", "monitor", "when", "then", "during", "try", "catch",
+    "finally", "repeat", "each", "parallel", "done", "fail", "cannot", "replan", "and", "or", "not", "true",
+    "false", "any",
+];
+
+/// Checks if a text can stand in the text syntax as a name without back-quotes: a letter or `_`, then
+/// letters, digits and `_` of ASCII, and no word of [`RESERVED`].
+///
+/// ```
+/// use motet_stdlib::lang::is_bare_name;
+///
+/// assert!(is_bare_name("mug_1"));
+/// assert!(!is_bare_name("7up") && !is_bare_name("wait"));
+/// ```
+#[must_use]
+pub fn is_bare_name(text: &str) -> bool {
+    let mut letters = text.chars();
+    letters.next().is_some_and(|first| first == '_' || first.is_ascii_alphabetic())
+        && letters.all(|letter| letter == '_' || letter.is_ascii_alphanumeric())
+        && !RESERVED.contains(&text)
+}
+
 /// Documentation of the failure `timeout`, which has no declaration.
 pub const TIMEOUT_DOC: &str = "It took too long.";
 

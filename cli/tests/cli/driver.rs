@@ -373,9 +373,8 @@ fn driver_errors_come_whole_and_a_flood_of_them_is_cut() {
     }
     let place = Place::new("drive_errors").file("away.motet", AWAY);
     let dies = "    if m['method'] == 'start':\n        raise SystemExit('no motor')\n";
-    let floods = "    if m['method'] == 'start':\n        sys.stderr.write('x' * 9000 + '\\n' + 'y\\n' * 200000)\n        \
-                  raise SystemExit('no motor')\n";
-    for (name, script) in [("dies", dies), ("floods", floods)] {
+    let floods = dies.replace("raise", "sys.stderr.write('x' * 9000 + 'y\\n' * 200000)\n        raise");
+    for (name, script) in [("dies", dies), ("floods", floods.as_str())] {
         let driver = place.path(name);
         std::fs::write(&driver, odd(script)).unwrap();
         let ran = place.run_args(&driven("away.motet", &format!("python3 '{}'", driver.display())));

@@ -1,19 +1,14 @@
-//! The words of the language: the one list of reserved words, declaration words and JSON keys. `motet.pest`
-//! spells the same words as rules; a test below holds it against these lists.
+//! The words of the language: reserved words, declaration words and JSON keys. `motet.pest` spells the same
+//! words as rules; a test below holds it against these lists.
 
 use std::borrow::Cow;
 use std::sync::LazyLock;
 
+pub use motet_stdlib::lang::{RESERVED, is_bare_name};
+
 use crate::render::is_steering;
 
 const GRAMMAR: &str = include_str!("motet.pest");
-
-/// Words that are never a bare name in the text syntax: the rule `reserved` of the grammar.
-pub const RESERVED: [&str; 26] = [
-    "let", "sequence", "if", "else", "wait", "until", "monitor", "when", "then", "during", "try", "catch",
-    "finally", "repeat", "each", "parallel", "done", "fail", "cannot", "replan", "and", "or", "not", "true",
-    "false", "any",
-];
 
 /// Words at the start of a declaration.
 pub const DECLARATIONS: [&str; 11] = [
@@ -104,23 +99,6 @@ pub fn json_key_owner(key: &str) -> Option<&'static str> {
 #[must_use]
 pub fn is_json_key(key: &str) -> bool {
     CALL_KEYS.contains(&key) || json_key_owner(key).is_some()
-}
-
-/// Checks if a text can stand in the text syntax as a name without back-quotes: a letter or `_`, then
-/// letters, digits and `_` of ASCII, and no word of [`RESERVED`].
-///
-/// ```
-/// use motet_syntax::words::is_bare_name;
-///
-/// assert!(is_bare_name("mug_1"));
-/// assert!(!is_bare_name("7up") && !is_bare_name("wait"));
-/// ```
-#[must_use]
-pub fn is_bare_name(text: &str) -> bool {
-    let mut letters = text.chars();
-    letters.next().is_some_and(|first| first == '_' || first.is_ascii_alphabetic())
-        && letters.all(|letter| letter == '_' || letter.is_ascii_alphanumeric())
-        && !RESERVED.contains(&text)
 }
 
 /// Checks if a text can stand as a name, in back-quotes where it is not a bare one: it is not empty, does not

@@ -11,6 +11,7 @@ use crate::start::StartState;
 use crate::state::{Phase, Run};
 use crate::time::Time;
 use motet_graph::{Graph, NodeId, NodeKind, Value};
+use motet_stdlib::lang::is_bare_name;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
@@ -204,20 +205,9 @@ fn fact_text(query: &Query) -> Option<String> {
     Some(text)
 }
 
-/// Reserved words, which are never bare names: a copy of `motet_syntax::words::RESERVED`, held by a test.
-const WORDS: [&str; 27] = [
-    "let", "sequence", "if", "else", "wait", "until", "monitor", "when", "then", "during", "try", "catch",
-    "finally", "repeat", "each", "parallel", "done", "fail", "cannot", "replan", "and", "or", "not", "true",
-    "false", "any", "",
-];
-
 /// A name, in back-quotes where it would not be read as one without.
 fn name(text: &mut String, id: &str) {
-    let mut letters = id.chars();
-    let plain = !WORDS.contains(&id)
-        && letters.next().is_some_and(|first| first == '_' || first.is_ascii_alphabetic())
-        && letters.all(|letter| letter == '_' || letter.is_ascii_alphanumeric());
-    if plain {
+    if is_bare_name(id) {
         text.push_str(id);
     } else {
         text.push('`');

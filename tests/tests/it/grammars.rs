@@ -157,13 +157,3 @@ fn grammar_texts_are_read_and_typed() {
     println!("{count} derivations: {found:?}");
     assert!(count >= 50_000, "{count}");
 }
-
-/// The engine writes facts as text and may not depend on the syntax crate, so it has a copy of the list.
-#[test]
-fn snapshot_quotes_the_reserved_words() {
-    let snapshot = include_str!("../../../runtime/engine/src/snapshot.rs");
-    let (_, list) = snapshot.split_once("const WORDS: [&str; 27] = [").unwrap();
-    let (list, _) = list.split_once("];").unwrap();
-    let words: Vec<&str> = list.split('"').skip(1).step_by(2).filter(|word| !word.is_empty()).collect();
-    assert_eq!(words, motet_syntax::words::RESERVED);
-}

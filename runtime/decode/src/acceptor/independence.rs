@@ -5,47 +5,11 @@
 
 use super::event_log::{Event, Id};
 use super::machine::Machine;
+use super::open_node::{OpenNode, OpenNodes, Reacts};
 use crate::grammar::NodeKind;
 
 /// Number of the last events that are read anew for each question: those that candidates differ in.
 const READ_ANEW: usize = 8;
-
-/// The open nodes at a place of the log, kept for the questions about the candidates behind it.
-#[derive(Clone, Default, Debug)]
-pub(super) struct OpenNodes {
-    /// The hash of the log up to the place.
-    hash: u64,
-    nodes: Vec<OpenNode>,
-}
-
-/// A node that is still open.
-#[derive(Clone, Copy, Debug)]
-struct OpenNode {
-    kind: NodeKind,
-    /// The fluents that it mentions, as bits; several may share one.
-    fluents: u64,
-    /// Of a `parallel`, the fluents of its finished branches; of a monitor, those of its finished
-    /// reactions.
-    beside: u64,
-    /// Of a monitor, the fluents of its conditions and reactions.
-    watched: u64,
-    /// Of a `parallel`, the resources of its finished branches.
-    taken: u64,
-    /// The resources that it uses.
-    uses: u64,
-    /// Of a monitor or one of its conditions: the effect of its reaction.
-    reacts: Reacts,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-enum Reacts {
-    /// Leaves the policy, or only waits.
-    Outside,
-    /// Runs steps, or is done.
-    Inside,
-    /// Restarts the body.
-    Again,
-}
 
 impl Machine {
     /// Nothing concurrent to the place behind `event` depends on `more` standing there.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::context::Context;
 use super::event_log::{ArenaMark, Arenas, CallFrame, Event, Id, State, UNSEEN};
-use super::independence::OpenNodes;
+use super::open_node::OpenNodes;
 use super::proof_cursor::Oracle;
 use crate::automaton::{Op, OpId, WordEnd};
 use crate::grammar::Guard;

@@ -12,6 +12,7 @@ mod guard;
 mod independence;
 mod lookahead;
 mod machine;
+mod open_node;
 mod oracle;
 mod proof_cursor;
 mod question;

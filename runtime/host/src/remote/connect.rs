@@ -1,7 +1,6 @@
 //! Position where a driver is: a command to start, or a port of this machine.
 
-use super::driver::ErrorOutput;
-use super::link::{KeepAlive, Link, LinkError};
+use super::link::{ErrorOutput, KeepAlive, Link, LinkError};
 use std::fmt;
 use std::io::{BufReader, Write};
 use std::net::{SocketAddr, TcpStream, ToSocketAddrs};

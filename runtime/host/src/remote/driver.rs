@@ -8,7 +8,7 @@ mod log;
 mod run_time;
 mod telemetry;
 
-pub use self::log::{DriverLog, ErrorOutput, LineFrom};
+pub use self::log::{DriverLog, LineFrom};
 
 use self::goals::GoalLedger;
 use self::run_time::RunTime;

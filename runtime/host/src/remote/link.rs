@@ -1,7 +1,6 @@
 //! Lines to and from a driver. Two threads read and write, so that a driver that does not listen holds up
 //! nobody.
 
-use super::driver::ErrorOutput;
 use super::protocol::{
     MAX_BEFORE_ANSWER, MAX_BREACHES, MAX_ERROR_LINE_BYTES, MAX_ERROR_LINES_A_SECOND, MAX_FACT_BYTES,
     MAX_LINE_BYTES, MAX_LOOK_BYTES, MAX_WAITING,
@@ -19,6 +18,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
+
+/// Function that takes a line of the standard error of a driver.
+pub type ErrorOutput = fn(&str);
 
 /// Error that ends the connection to a driver.
 #[derive(Clone, PartialEq, Eq, Debug)]

@@ -12,6 +12,6 @@ pub mod protocol;
 mod rate;
 
 pub use connect::{DriverAddress, DriverAddressError};
-pub use driver::{DriverLog, ErrorOutput, LineFrom, RemoteDriver};
-pub use link::LinkError;
+pub use driver::{DriverLog, LineFrom, RemoteDriver};
+pub use link::{ErrorOutput, LinkError};
 pub use protocol::DriverTimeouts;

@@ -1,5 +1,7 @@
 //! Listener to what passes between the host and a driver, for people and for tests of drivers.
 
+use crate::remote::link::ErrorOutput;
+
 /// Listener to a connection with a driver. A closure that takes a text is one that hears the notes.
 pub trait DriverLog {
     /// Something for people: feedback, and what goes wrong with the connection.
@@ -19,9 +21,6 @@ pub trait DriverLog {
         None
     }
 }
-
-/// Function that takes a line of the standard error of a driver.
-pub type ErrorOutput = fn(&str);
 
 impl<F: FnMut(&str)> DriverLog for F {
     fn note(&mut self, text: &str) {
