@@ -65,6 +65,17 @@ pub(super) fn domain(file: &File) -> Result<Domain, String> {
     Ok(domain)
 }
 
+/// Reads the goal of a policy.
+///
+/// # Errors
+///
+/// A goal that the worlds cannot judge, in words.
+pub(super) fn goal(file: &File, policy: &str, domain: &Domain) -> Result<Option<Condition>, String> {
+    let mut policies = file.policies().filter(|known| known.name.text == policy);
+    let goal = policies.find_map(|policy| policy.achieves.as_ref());
+    goal.map(|goal| condition(goal, domain, Scope { params: &[], each: None })).transpose()
+}
+
 fn named_kind(name: &str) -> Result<Kind, String> {
     let kinds = [Kind::Entity, Kind::Object, Kind::Container, Kind::Person, Kind::Place];
     kinds

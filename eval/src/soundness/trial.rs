@@ -10,14 +10,14 @@ use motet_syntax::{Parsed, Severity, Source, Sources};
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::SeedableRng as _;
 
-use super::contract::Domain;
+use super::contract::{Condition, Domain, Frame, Need};
 use super::policy::{Policy, domain_text, policy_text};
 use super::world::{Mood, World};
 
 /// Greatest number of events of a run.
 const MAX_EVENTS: usize = 5000;
-/// Code of a need that is refuted.
-const REFUTED: &str = "M0501";
+/// Codes of a need and of a goal that are refuted.
+pub(super) const REFUTED: [&str; 2] = ["M0501", "M0503"];
 
 /// Fault that is put into every graph, to show that the fuzzer finds it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -53,6 +53,14 @@ pub(super) enum Mistake {
     Refused,
     /// A guard refuses a need as unknown although everything can be observed.
     Unseen,
+    /// The goal is called proven, and is false when the policy is done.
+    Goal,
+    /// The goal is observed to hold when the policy is done, and is false.
+    Reached,
+    /// The goal is observed to be false when the policy is done, and holds.
+    Missed,
+    /// The goal stays unknown when the policy is done, although everything can be observed.
+    Unsure,
     /// The run does not end.
     Endless,
 }
@@ -65,6 +73,10 @@ impl Mistake {
             Self::Passed => "was passed by its guard, and is false when its step begins",
             Self::Refused => "was refused by its guard as false, and holds",
             Self::Unseen => "was refused by its guard as unknown, and can be observed",
+            Self::Goal => "is called proven, and is false when the policy is done",
+            Self::Reached => "was observed to hold when the policy was done, and is false",
+            Self::Missed => "was observed to be false when the policy was done, and holds",
+            Self::Unsure => "stayed unknown when the policy was done, and can be observed",
             Self::Endless => "",
         }
     }
@@ -83,14 +95,23 @@ pub(super) struct Finding {
 pub(super) struct Graphs {
     first: Graph,
     later: Option<Graph>,
+    goal: Option<Goal>,
+}
+
+/// Goal of a policy.
+#[derive(Clone, Debug)]
+pub(super) struct Goal {
+    pub(super) condition: Condition,
+    /// True if the check calls it proven.
+    pub(super) is_proven: bool,
 }
 
 /// Result of checking a policy.
 #[derive(Debug)]
 pub(super) enum Checked {
     Accepted(Box<Graphs>),
-    /// A need is refuted.
-    Refuted,
+    /// A need or the goal is refuted; the codes, of [`REFUTED`].
+    Refuted(Vec<&'static str>),
     /// Something else is wrong with the document, with the codes.
     Other(Vec<&'static str>),
 }
@@ -99,7 +120,15 @@ pub(super) enum Checked {
 pub(super) struct Bench<'d> {
     pub(super) domain: &'d Domain,
     session: Session,
+    with_needs: bool,
     fault: Option<SeededFault>,
+}
+
+impl Graphs {
+    /// The goal of the policy.
+    pub(super) fn goal(&self) -> Option<&Goal> {
+        self.goal.as_ref()
+    }
 }
 
 impl<'d> Bench<'d> {
@@ -122,27 +151,28 @@ impl<'d> Bench<'d> {
         said.extend(session.input_diagnostics().iter().cloned());
         match said.iter().find(|said| said.severity == Severity::Error) {
             Some(wrong) => Err(format!("{}: {}\n{}", wrong.code.0, wrong.message, source.text)),
-            None => Ok(Self { domain, session, fault }),
+            None => Ok(Self { domain, session, with_needs, fault }),
         }
     }
 
     /// A session over nothing, for documents that declare the domain themselves.
     pub(super) fn bare(domain: &'d Domain, fault: Option<SeededFault>) -> Self {
-        Self { domain, session: Session::builder().build(&mut Sources::default()), fault }
+        let session = Session::builder().build(&mut Sources::default());
+        Self { domain, session, with_needs: true, fault }
     }
 
     /// Checks a policy.
     #[must_use]
     pub(super) fn check(&self, policy: &Policy) -> Checked {
         let mut sources = Sources::default();
-        let source = Source::new("policy.motet", policy_text(self.domain, policy));
+        let source = Source::new("policy.motet", policy_text(self.domain, policy, self.with_needs));
         let id = sources.add(source.clone());
         let parsed = motet_syntax::read(&source, id);
-        let mut checked = self.check_document(&parsed, "p");
+        let mut checked = self.check_document(&parsed, "p", policy.goal.as_ref());
         if let Checked::Accepted(graphs) = &mut checked
             && !policy.later.is_empty()
         {
-            match self.check_document(&parsed, "later") {
+            match self.check_document(&parsed, "later", None) {
                 Checked::Accepted(later) => graphs.later = Some(later.first),
                 refused => return refused,
             }
@@ -150,9 +180,9 @@ impl<'d> Bench<'d> {
         checked
     }
 
-    /// Checks a policy of a document.
+    /// Checks a policy of a document, with its goal.
     #[must_use]
-    pub(super) fn check_document(&self, parsed: &Parsed, policy: &str) -> Checked {
+    pub(super) fn check_document(&self, parsed: &Parsed, policy: &str, goal: Option<&Condition>) -> Checked {
         let compiled = self.session.compile(parsed, Some(policy));
         let errors = compiled.diagnostics.iter().filter(|said| said.severity == Severity::Error);
         let mut codes: Vec<&'static str> = errors.map(|said| said.code.0).collect();
@@ -161,9 +191,17 @@ impl<'d> Bench<'d> {
         match compiled.graph {
             Some(mut graph) if codes.is_empty() => {
                 self.fault.into_iter().for_each(|fault| fault.put_into(&mut graph));
-                Checked::Accepted(Box::new(Graphs { first: graph, later: None }))
+                let goal = goal.map(|condition| {
+                    // Without its needs a policy is judged as if everything were proven.
+                    let is_trusted = !self.with_needs || self.fault == Some(SeededFault::ProvesTooMuch);
+                    let is_proven = is_trusted || self.session.proves_goals(parsed);
+                    Goal { condition: condition.clone(), is_proven }
+                });
+                Checked::Accepted(Box::new(Graphs { first: graph, later: None, goal }))
             }
-            _ if codes == [REFUTED] => Checked::Refuted,
+            _ if !codes.is_empty() && codes.iter().all(|code| REFUTED.contains(code)) => {
+                Checked::Refuted(codes)
+            }
             _ => Checked::Other(codes),
         }
     }
@@ -201,8 +239,22 @@ impl<'d> Bench<'d> {
         let after = (seed / 4) % 16;
         let later = graphs.later.clone().map(|later| (after, later)).filter(|(after, _)| *after < 12);
         let (findings, bindings) = (Vec::new(), Vec::new());
-        let (has_swapped, testing) = (false, Vec::new());
-        Some(Run { engine, world, mood, needs, later, has_swapped, testing, findings, bindings, log })
+        let goal = graphs.goal.clone();
+        let (has_swapped, is_judged, testing) = (false, false, Vec::new());
+        Some(Run {
+            engine,
+            world,
+            mood,
+            needs,
+            later,
+            goal,
+            has_swapped,
+            is_judged,
+            testing,
+            findings,
+            bindings,
+            log,
+        })
     }
 
     /// A world of a seed, which also decides its mood.
@@ -232,7 +284,10 @@ struct Run<'d> {
     needs: Needs,
     /// The number of events after which another policy takes over, and its graph.
     later: Option<(u64, Graph)>,
+    goal: Option<Goal>,
     has_swapped: bool,
+    /// True once the goal was observed.
+    is_judged: bool,
     /// Tests that have begun and have not come out.
     testing: Vec<NodeId>,
     findings: Vec<Finding>,
@@ -281,8 +336,10 @@ impl Run<'_> {
             }
             match &effect {
                 Effect::Finished(end) => {
-                    if matches!(**end, RunEnd::Fault(_)) {
-                        self.note(Mistake::Endless, format!("{end}"));
+                    match **end {
+                        RunEnd::Fault(_) => self.note(Mistake::Endless, format!("{end}")),
+                        RunEnd::Done { .. } if !self.is_judged => self.judge_goal(None),
+                        _ => {}
                     }
                     return true;
                 }
@@ -332,6 +389,26 @@ impl Run<'_> {
         }
     }
 
+    /// The policy is done, and its goal was observed, if it can be: does it hold?
+    fn judge_goal(&mut self, observed: Option<Truth>) {
+        self.is_judged = true;
+        let Some(Goal { condition, is_proven }) = self.goal.clone().filter(|_| !self.has_swapped) else {
+            return;
+        };
+        let (domain, frame) = (self.world.domain(), Frame::default());
+        let holds = domain.holds(&condition, &frame, &self.world.state);
+        let need = Need { condition, each: None, when: None };
+        let is_moving = self.world.is_moving(&domain.asked(&need, &frame));
+        let mistake = match observed {
+            _ if is_proven && !holds => Mistake::Goal,
+            Some(Truth::True) if !holds && !is_moving => Mistake::Reached,
+            Some(Truth::False) if holds && !is_moving => Mistake::Missed,
+            Some(Truth::Unknown) if self.mood == Mood::Honest => Mistake::Unsure,
+            _ => return,
+        };
+        self.note(mistake, "the goal".to_owned());
+    }
+
     /// A step begins: do its needs hold?
     fn started(&mut self, node: NodeId, command: &Command) {
         let Some((action, frame)) = self.world.called(command) else { return };
@@ -379,6 +456,9 @@ impl Run<'_> {
                 .get_mut(binding.index())
                 .into_iter()
                 .for_each(|slot| *slot = Some((**value).clone()));
+        }
+        if let TraceEventKind::GoalObserved { truth } = what {
+            self.judge_goal(Some(*truth));
         }
         if matches!(what, TraceEventKind::Fired { .. }) {
             // A reaction goes by what has set it off.
