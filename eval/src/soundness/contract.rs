@@ -100,6 +100,8 @@ pub(super) struct Action {
     pub(super) fails: Vec<&'static str>,
     /// Resource that it holds.
     pub(super) uses: Option<&'static str>,
+    /// True if what it makes true may be false once a later step uses the base.
+    pub(super) is_stale_by_base: bool,
     /// True for a perception that finds an object.
     pub(super) finds: bool,
     /// True for a perception that finds a list of objects instead.

@@ -10,7 +10,9 @@ use super::contract::{Action, Arg, Atom, Change, Condition, Domain, Kind, Need};
 /// Failures that actions declare.
 pub(super) const FAILURES: [&str; 2] = ["slipped", "blocked"];
 /// Resources of actions; one contains the other or they are apart, as the standard library says.
-const RESOURCES: [&str; 3] = ["base", "voice", "camera"];
+const RESOURCES: [&str; 3] = [BASE, "voice", "camera"];
+/// The resource that moves the robot.
+pub(super) const BASE: &str = "base";
 
 /// True `percent` times of a hundred.
 pub(super) fn chance(dice: &mut SplitMix64, percent: u32) -> bool {
@@ -195,5 +197,5 @@ fn action(dice: &mut SplitMix64, domain: &Domain, finds: bool) -> Action {
     let fails = FAILURES.into_iter().filter(|_| chance(dice, 40)).collect();
     // Without any it would hold the whole robot.
     let uses = chance(dice, 90).then(|| one_of(dice, &RESOURCES)).flatten();
-    Action { name: String::new(), params, needs, makes, unsettles, fails, uses, finds, finds_all }
+    Action { params, needs, makes, unsettles, fails, uses, finds, finds_all, ..Action::default() }
 }

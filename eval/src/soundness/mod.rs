@@ -13,6 +13,7 @@ mod read;
 mod shrink;
 mod steps;
 mod trial;
+mod wire;
 mod world;
 
 use std::collections::BTreeMap;

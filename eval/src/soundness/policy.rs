@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use super::contract::{Action, Arg, Atom, Change, Condition, Domain, Kind, Need};
+use super::make::BASE;
 
 /// A step.
 #[derive(Clone, Debug)]
@@ -261,6 +262,7 @@ impl Writer<'_> {
         }
         clause("makes", action.makes.iter().map(|change| writer.change(change, change.truth)).collect());
         clause("unsettles", action.unsettles.iter().map(|change| writer.change(change, true)).collect());
+        clause("lasts until", action.is_stale_by_base.then(|| BASE.to_owned()).into_iter().collect());
         clause("uses", action.uses.iter().map(|&name| name.to_owned()).collect());
         clause("takes", vec!["1 s .. 4 s".to_owned()]);
         clause("fails", action.fails.iter().map(|&name| name.to_owned()).collect());

@@ -4,7 +4,7 @@ use rand::RngExt as _;
 use rand_xoshiro::SplitMix64;
 
 use super::contract::{Arg, Change, Condition, Domain, Kind};
-use super::make::{FAILURES, Terms, chance, condition, entities, one_of};
+use super::make::{BASE, FAILURES, Terms, chance, condition, entities, one_of};
 use super::policy::{Among, Called, ENDS, Handler, MANNERS, Policy, Reaction, Rule, Step};
 
 /// Kinds of failure that handlers name; none stands for any.
@@ -49,7 +49,7 @@ pub(super) fn policy(dice: &mut SplitMix64, domain: &Domain) -> Policy {
         }
         called.push(maker.called());
     }
-    let length = 2 + maker.dice.random_range(0..4);
+    let length = 1 + maker.dice.random_range(0..5);
     let body = maker.block(length, 3);
     let cleanup = if chance(maker.dice, 8) { maker.cleanup() } else { Vec::new() };
     let goal = chance(maker.dice, 40).then(|| maker.goal(&body));
@@ -202,7 +202,7 @@ impl Maker<'_> {
         let args = def.params.iter().filter_map(|kind| one_of(self.dice, &terms.of_kind(*kind))).collect();
         let retry = if chance(self.dice, 12) { 1 + self.dice.random_range(0..2) } else { 0 };
         // Of the resources only this one moves the robot.
-        let moves = def.uses == Some("base") && chance(self.dice, 15);
+        let moves = def.uses == Some(BASE) && chance(self.dice, 15);
         let manner = one_of(self.dice, &MANNERS).filter(|_| moves).unwrap_or_default();
         Step::Call { action, args, name, retry, manner, is_bounded: chance(self.dice, 6) }
     }
