@@ -186,8 +186,9 @@ impl Session {
         self.goals(parsed).iter().any(|goal| !goal.may_hold)
     }
 
-    /// Returns true if every policy with a goal is proven to reach it at each of its ends.
-    pub(crate) fn proves_goals(&self, parsed: &Parsed) -> bool {
+    /// Returns true if every policy with a goal is proven to reach it at each end at which it is done.
+    #[must_use]
+    pub fn proves_goals(&self, parsed: &Parsed) -> bool {
         self.goals(parsed).iter().all(|goal| goal.is_proven)
     }
 

@@ -17,6 +17,8 @@ pub(crate) struct CallFrame<'c> {
 
 /// Maximal number of entities behind a symbol that are examined one by one.
 pub(super) const MAX_ALIASES: usize = 64;
+/// Maximal number of facts of a pattern that are examined one by one.
+const MAX_FACTS: usize = MAX_ALIASES * MAX_ALIASES;
 
 impl Prover<'_> {
     /// Argument of a key; `None` if the term's entity is unknown.
@@ -164,30 +166,74 @@ impl Prover<'_> {
         }
         // Some entity: all the rest, then those that are known one by one, in an order of their own: the
         // cause is the last one's.
-        let mut known: SmallVec<[FactKey; 8]> = SmallVec::new();
-        self.state.facts.parts(fluent, key, |key| known.push(key));
-        known.sort_unstable();
-        known.dedup();
-        let mut rest = self.read(fluent, key);
-        if rest.yes.is_some() && !known.is_empty() && self.are_all(fluent, key, &known) {
-            // There may be no rest that has it.
-            rest = rest.join(TruthSet::no(Cause::NOTHING));
-        }
-        known.into_iter().fold(rest, |some, key| self.read(fluent, key).or(some))
+        let known = self.known_parts(fluent, key);
+        let rest = self.rest(fluent, key, &known);
+        known.into_iter().fold(rest, |some, part| {
+            let value = if part.is_pattern() {
+                self.rest(fluent, part, &self.known_parts(fluent, part))
+            } else {
+                self.read(fluent, part)
+            };
+            value.or(some)
+        })
     }
 
-    /// Returns whether some facts are all that a pattern covers, of the entities of the environment.
+    /// Facts and patterns with values of their own that a pattern covers, in order.
+    fn known_parts(&self, fluent: Fluent, pattern: FactKey) -> SmallVec<[FactKey; 8]> {
+        let mut known = SmallVec::new();
+        self.state.facts.parts(fluent, pattern, |key| known.push(key));
+        known.sort_unstable();
+        known.dedup();
+        known
+    }
+
+    /// Value of the facts of a pattern that have no value of their own.
+    fn rest(&self, fluent: Fluent, pattern: FactKey, known: &[FactKey]) -> TruthSet {
+        let rest = self.read(fluent, pattern);
+        if rest.yes.is_some() && !known.is_empty() && self.are_all(fluent, pattern, known) {
+            // There may be no rest that has it.
+            return rest.join(TruthSet::no(Cause::NOTHING));
+        }
+        rest
+    }
+
+    /// Returns whether some facts and patterns may be all that a pattern covers, of the entities of the
+    /// environment.
     fn are_all(&self, fluent: Fluent, pattern: FactKey, known: &[FactKey]) -> bool {
         let Some(def) = self.library.fluent(fluent) else { return false };
+        let has_patterns = known.iter().any(|key| key.is_pattern());
+        let most = if has_patterns { MAX_ALIASES } else { known.len() };
         let open = def.params.iter().enumerate().filter(|(index, _)| pattern.arg(*index) == ANY);
-        let counts = open.map(|(_, (_, ty))| match (ty.kind(), ty.base) {
-            (Some(kind), _) => self.of_kind(kind, known.len() + 1).len(),
-            (None, Base::Enum(of)) => self.library.enums.get(of.index()).map_or(0, |of| of.cases.len()),
-            (None, _) => 0,
-        });
-        let all = counts.fold(1, usize::saturating_mul);
-        let single = |key: &&FactKey| !key.is_pattern() && !self.has_symbol(fluent, **key);
-        all <= known.len() && known.iter().filter(single).count() >= all
+        let args: Vec<(usize, Vec<u16>)> = open
+            .map(|(index, (_, ty))| match (ty.kind(), ty.base) {
+                (Some(kind), _) => {
+                    let entities = self.of_kind(kind, most + 1).into_iter();
+                    (index, entities.map(|entity| entity.0).collect())
+                }
+                (None, Base::Enum(of)) => {
+                    let cases = self.library.enums.get(of.index()).map_or(0, |of| of.cases.len());
+                    (index, (0..).take(cases).collect())
+                }
+                (None, _) => (index, Vec::new()),
+            })
+            .collect();
+        let all = args.iter().fold(1, |all: usize, (_, choices)| all.saturating_mul(choices.len()));
+        let named: Vec<FactKey> =
+            known.iter().copied().filter(|key| !self.has_symbol(fluent, *key)).collect();
+        if !has_patterns {
+            return all <= named.len();
+        }
+        // Each of them, one after the other: the choices are the digits of its number.
+        effort::spend(all.min(MAX_FACTS).saturating_mul(named.len()));
+        all > MAX_FACTS
+            || (0..all).all(|mut number| {
+                let fact = args.iter().fold(pattern, |fact, (index, choices)| {
+                    let choice = choices.get(number % choices.len().max(1)).copied().unwrap_or(ANY);
+                    number /= choices.len().max(1);
+                    fact.with(*index, choice)
+                });
+                named.iter().any(|key| key.covers(fact))
+            })
     }
 
     fn compare(&self, op: CompareOp, left: &Term, right: &Term, frame: CallFrame<'_>) -> TruthSet {

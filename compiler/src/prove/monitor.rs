@@ -34,6 +34,7 @@ impl<'a> Prover<'a> {
         self.free(id, whens);
         let restarts = whens.iter().filter(|when| matches!(when.reaction, Reaction::Restart { .. }));
         let restarts: Vec<_> = restarts.collect();
+        let resumes = whens.iter().any(|when| matches!(when.reaction, Reaction::Resume { .. }));
         self.erode();
         let before = self.state.facts.delta(mark);
         self.enter_body(id, whens);
@@ -66,6 +67,10 @@ impl<'a> Prover<'a> {
                 let partitions = self.state.partitions.clone();
                 self.state.facts.replay(&states);
                 if self.overtake(id, &when.condition) {
+                    if resumes {
+                        // It may have broken off a reaction.
+                        self.doubt_reactions(id);
+                    }
                     let path = self.state.facts.delta(mark);
                     self.back_to(mark);
                     next = Some(match next {
@@ -90,7 +95,9 @@ impl<'a> Prover<'a> {
         self.state.volatile.truncate(volatile);
         let mut left = whens;
         while let Some((when, later)) = left.split_first() {
-            self.fire(id, (when, later), &states, mark);
+            // Only another reaction that goes on waits for the end of one.
+            let breaks_off = resumes && !matches!(when.reaction, Reaction::Resume { .. });
+            self.fire(id, (when, later, breaks_off), &states, mark);
             left = later;
         }
         self.control.fixpoints -= 1;
@@ -476,13 +483,23 @@ impl<'a> Prover<'a> {
         }
     }
 
-    /// Proves a reaction from the states in which it can start.
-    fn fire(&mut self, id: StepId, (when, later): (&'a When, &'a [When]), states: &Delta, mark: usize) {
+    /// Proves a reaction from the states in which it can start, among them those in which it breaks off
+    /// another one, if it can.
+    fn fire(
+        &mut self,
+        id: StepId,
+        (when, later, breaks_off): (&'a When, &'a [When], bool),
+        states: &Delta,
+        mark: usize,
+    ) {
         let partitions = self.state.partitions.clone();
         self.follow(states);
         self.forget_later(id, later);
         self.control.live = self.overtake(id, &when.condition);
         if self.control.live {
+            if breaks_off {
+                self.doubt_reactions(id);
+            }
             self.react(when);
         } else {
             self.diagnostics.push(NeverFires { span: when.span, what: "the monitor can never fire" }.into());

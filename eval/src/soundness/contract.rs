@@ -65,6 +65,11 @@ pub(super) enum Condition {
     Not(Box<Self>),
     All(Vec<Self>),
     AnyOf(Vec<Self>),
+    /// A failure that a handler has named is of a kind. Only tests of policies ask for it, and of those only
+    /// the outcome in the run is known.
+    Kind(usize, &'static str),
+    /// A list of the policy is empty; as with [`Self::Kind`].
+    Empty(usize),
 }
 
 /// A need, perhaps of each entity of a kind, perhaps under a condition.
@@ -95,6 +100,8 @@ pub(super) struct Action {
     pub(super) fails: Vec<&'static str>,
     /// Resource that it holds.
     pub(super) uses: Option<&'static str>,
+    /// True if what it makes true may be false once a later step uses the base.
+    pub(super) is_stale_by_base: bool,
     /// True for a perception that finds an object.
     pub(super) finds: bool,
     /// True for a perception that finds a list of objects instead.
@@ -217,6 +224,7 @@ impl Domain {
             Condition::Not(inner) => !self.holds(inner, frame, state),
             Condition::All(parts) => parts.iter().all(|part| self.holds(part, frame, state)),
             Condition::AnyOf(parts) => parts.iter().any(|part| self.holds(part, frame, state)),
+            Condition::Kind(..) | Condition::Empty(_) => false,
         }
     }
 
@@ -245,7 +253,7 @@ impl Domain {
     fn mentioned(&self, condition: &Condition, frame: &Frame, cells: &mut Vec<usize>) {
         match condition {
             Condition::Is(atom) => cells.extend(self.cells_in(atom, frame)),
-            Condition::Same(..) => {}
+            Condition::Same(..) | Condition::Kind(..) | Condition::Empty(_) => {}
             Condition::Not(inner) => self.mentioned(inner, frame, cells),
             Condition::All(parts) | Condition::AnyOf(parts) => {
                 parts.iter().for_each(|part| self.mentioned(part, frame, cells));
@@ -293,6 +301,7 @@ fn is_about_result(condition: &Condition) -> bool {
         Condition::Same(one, other) => [one, other].contains(&&Arg::Result),
         Condition::Not(inner) => is_about_result(inner),
         Condition::All(parts) | Condition::AnyOf(parts) => parts.iter().any(is_about_result),
+        Condition::Kind(..) | Condition::Empty(_) => false,
     }
 }
 

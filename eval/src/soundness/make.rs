@@ -1,17 +1,18 @@
-//! Random domains and policies, the same for the same seed. Domains are small, so that policies often meet
-//! what they have changed.
+//! Random domains, the same for the same seed. They are small, so that policies often meet what they have
+//! changed.
 
 use motet_stdlib::lang::fluents::HOLDING;
 use rand::RngExt as _;
 use rand_xoshiro::SplitMix64;
 
 use super::contract::{Action, Arg, Atom, Change, Condition, Domain, Kind, Need};
-use super::policy::{Among, ENDS, Policy, Reaction, Step, Watch};
 
 /// Failures that actions declare.
 pub(super) const FAILURES: [&str; 2] = ["slipped", "blocked"];
 /// Resources of actions; one contains the other or they are apart, as the standard library says.
-const RESOURCES: [&str; 3] = ["base", "voice", "camera"];
+const RESOURCES: [&str; 3] = [BASE, "voice", "camera"];
+/// The resource that moves the robot.
+pub(super) const BASE: &str = "base";
 
 /// True `percent` times of a hundred.
 pub(super) fn chance(dice: &mut SplitMix64, percent: u32) -> bool {
@@ -79,7 +80,7 @@ pub(super) fn domain(dice: &mut SplitMix64) -> Domain {
 
 /// Arguments that may stand in some place.
 #[derive(Clone, Default)]
-struct Terms {
+pub(super) struct Terms {
     /// Arguments with their kinds.
     known: Vec<(Arg, Kind)>,
     /// Percentage of `any`.
@@ -87,19 +88,19 @@ struct Terms {
 }
 
 impl Terms {
-    fn with(&self, arg: Arg, kind: Kind) -> Self {
+    pub(super) fn with(&self, arg: Arg, kind: Kind) -> Self {
         let mut terms = self.clone();
         // Twice, so that it is often taken.
         terms.known.extend([(arg, kind), (arg, kind)]);
         terms
     }
 
-    fn of_kind(&self, kind: Kind) -> Vec<Arg> {
+    pub(super) fn of_kind(&self, kind: Kind) -> Vec<Arg> {
         self.known.iter().filter(|(_, own)| own.is(kind)).map(|(arg, _)| *arg).collect()
     }
 }
 
-fn entities(domain: &Domain) -> Terms {
+pub(super) fn entities(domain: &Domain) -> Terms {
     let declared = (0..).zip(&domain.entities).take(domain.declared);
     Terms { known: declared.map(|(index, (_, kind))| (Arg::Entity(index), *kind)).collect(), any: 12 }
 }
@@ -126,11 +127,12 @@ fn atom_of(dice: &mut SplitMix64, domain: &Domain, terms: &Terms, fluent: usize)
     Atom { fluent, args: args.collect() }
 }
 
-fn condition(dice: &mut SplitMix64, domain: &Domain, terms: &Terms, depth: u32) -> Condition {
+pub(super) fn condition(dice: &mut SplitMix64, domain: &Domain, terms: &Terms, depth: u32) -> Condition {
     let choice = dice.random_range(0..100);
     if depth > 0 && choice < 12 {
         let parts = (0..2).map(|_| condition(dice, domain, terms, depth - 1)).collect();
-        return if choice < 6 { Condition::All(parts) } else { Condition::AnyOf(parts) };
+        let parts = if choice < 6 { Condition::All(parts) } else { Condition::AnyOf(parts) };
+        return if chance(dice, 20) { Condition::Not(Box::new(parts)) } else { parts };
     }
     let is = Condition::Is(atom(dice, domain, terms));
     if chance(dice, 40) { Condition::Not(Box::new(is)) } else { is }
@@ -195,167 +197,5 @@ fn action(dice: &mut SplitMix64, domain: &Domain, finds: bool) -> Action {
     let fails = FAILURES.into_iter().filter(|_| chance(dice, 40)).collect();
     // Without any it would hold the whole robot.
     let uses = chance(dice, 90).then(|| one_of(dice, &RESOURCES)).flatten();
-    Action { name: String::new(), params, needs, makes, unsettles, fails, uses, finds, finds_all }
-}
-
-/// Maker of a policy.
-struct Maker<'a> {
-    dice: &'a mut SplitMix64,
-    domain: &'a Domain,
-    /// Names in scope; all are of objects.
-    names: Vec<usize>,
-    /// Names in scope of lists of objects.
-    lists: Vec<usize>,
-    made: usize,
-    policies: usize,
-}
-
-/// A policy of few steps over a domain.
-#[must_use]
-pub(super) fn policy(dice: &mut SplitMix64, domain: &Domain) -> Policy {
-    let mut maker = Maker { dice, domain, names: Vec::new(), lists: Vec::new(), made: 0, policies: 0 };
-    let mut called = Vec::new();
-    if chance(maker.dice, 20) {
-        let name = maker.name();
-        maker.names.push(name);
-        called.push((name, maker.block(2, 1)));
-        maker.names.clear();
-    }
-    maker.policies = called.len();
-    let length = 2 + maker.dice.random_range(0..4);
-    let body = maker.block(length, 3);
-    let later = if chance(maker.dice, 12) { maker.block(2, 2) } else { Vec::new() };
-    Policy { body, called, later }
-}
-
-impl Maker<'_> {
-    fn name(&mut self) -> usize {
-        self.made += 1;
-        self.made - 1
-    }
-
-    /// Steps, whose names end with them.
-    fn block(&mut self, length: usize, depth: u32) -> Vec<Step> {
-        let (names, lists) = (self.names.len(), self.lists.len());
-        let steps = (0..length).map(|_| self.step(depth)).collect();
-        self.names.truncate(names);
-        self.lists.truncate(lists);
-        steps
-    }
-
-    fn inner(&mut self, depth: u32) -> Vec<Step> {
-        let length = 1 + self.dice.random_range(0..3);
-        self.block(length, depth.saturating_sub(1))
-    }
-
-    fn terms(&self) -> Terms {
-        let terms = entities(self.domain);
-        self.names.iter().fold(terms, |terms, name| terms.with(Arg::Name(*name), Kind::Object))
-    }
-
-    fn test(&mut self) -> Condition {
-        let terms = self.terms();
-        condition(self.dice, self.domain, &terms, 1)
-    }
-
-    fn end(&mut self) -> &'static str {
-        one_of(self.dice, &ENDS).unwrap_or_default()
-    }
-
-    fn objects(&mut self) -> Vec<usize> {
-        let all: Vec<usize> =
-            self.domain.of_kind(Kind::Object).filter(|one| *one < self.domain.declared).collect();
-        let some: Vec<usize> = all.iter().copied().filter(|_| chance(self.dice, 60)).collect();
-        if some.is_empty() { all } else { some }
-    }
-
-    fn call(&mut self) -> Step {
-        let action = self.dice.random_range(0..self.domain.actions.len());
-        let Some(def) = self.domain.actions.get(action) else { return Step::Delay };
-        let terms = self.terms();
-        let args = def.params.iter().filter_map(|kind| one_of(self.dice, &terms.of_kind(*kind))).collect();
-        let name = ((def.finds || def.finds_all) && chance(self.dice, 85)).then(|| self.name());
-        (if def.finds_all { &mut self.lists } else { &mut self.names }).extend(name);
-        let retry = if chance(self.dice, 12) { 1 + self.dice.random_range(0..2) } else { 0 };
-        Step::Call { action, args, name, retry }
-    }
-
-    fn step(&mut self, depth: u32) -> Step {
-        let choice = if depth == 0 { 0 } else { self.dice.random_range(0..100) };
-        match choice {
-            42..44 => {
-                let Some(list) = one_of(self.dice, &self.lists) else { return self.call() };
-                let name = self.name();
-                self.names.push(name);
-                Step::First { list, name }
-            }
-            44..48 => {
-                let (among, name) = (self.objects(), self.name());
-                self.names.push(name);
-                Step::Choose { among, name }
-            }
-            48..58 => {
-                let test = self.test();
-                let then = self.inner(depth);
-                let otherwise = if chance(self.dice, 60) { self.inner(depth) } else { Vec::new() };
-                Step::If(test, then, otherwise)
-            }
-            58..61 => Step::Wait(self.test()),
-            61..62 => Step::Delay,
-            62..71 => {
-                let body = self.inner(depth);
-                let on: [&[&'static str]; 3] = [&["slipped"], &["blocked", "timeout"], &[]];
-                let chosen: Vec<_> = on.into_iter().filter(|_| chance(self.dice, 45)).collect();
-                let chosen = if chosen.is_empty() { vec![&[] as &[_]] } else { chosen };
-                let handlers = chosen.into_iter().map(|on| {
-                    let handler = if chance(self.dice, 20) { Vec::new() } else { self.inner(depth) };
-                    (on.to_vec(), handler)
-                });
-                Step::Try(body, handlers.collect())
-            }
-            71..75 => {
-                let body = self.inner(depth);
-                Step::Finally(body, self.inner(1))
-            }
-            75..81 => {
-                let (times, body) = (1 + self.dice.random_range(0..3), self.inner(depth));
-                let until = chance(self.dice, 50).then(|| self.test());
-                Step::Repeat(times, body, until)
-            }
-            81..85 => {
-                let list = one_of(self.dice, &self.lists).filter(|_| chance(self.dice, 50));
-                let among = list.map_or_else(|| Among::Entities(self.objects()), Among::List);
-                let name = self.name();
-                self.names.push(name);
-                let body = self.inner(depth);
-                self.names.retain(|known| *known != name);
-                Step::Each { among, name, body }
-            }
-            85..91 => {
-                let for_secs = if chance(self.dice, 25) { 1 + self.dice.random_range(0..2) } else { 0 };
-                let watch = Watch { condition: self.test(), for_secs };
-                let reaction = match self.dice.random_range(0..10) {
-                    0..3 => Reaction::Pause,
-                    3..5 => Reaction::Restart(1 + self.dice.random_range(0..2)),
-                    5..9 => Reaction::Resume(1 + self.dice.random_range(0..2), self.inner(1)),
-                    _ => Reaction::End(self.end()),
-                };
-                Step::Monitor(watch, reaction, self.inner(depth))
-            }
-            91..92 => {
-                let known = self.terms().of_kind(Kind::Entity);
-                let of = one_of(self.dice, &known).unwrap_or(Arg::Entity(0));
-                Step::Keep(of, self.inner(depth))
-            }
-            92..93 => Step::Within(self.inner(depth)),
-            93..97 => Step::Parallel((0..2).map(|_| self.inner(depth.min(2))).collect()),
-            97..99 if self.policies > 0 => {
-                let objects = self.terms().of_kind(Kind::Object);
-                let arg = one_of(self.dice, &objects).unwrap_or(Arg::Entity(0));
-                Step::Policy(self.dice.random_range(0..self.policies), arg)
-            }
-            99 => Step::End(self.end()),
-            _ => self.call(),
-        }
-    }
+    Action { params, needs, makes, unsettles, fails, uses, finds, finds_all, ..Action::default() }
 }

@@ -11,7 +11,9 @@ mod make;
 mod policy;
 mod read;
 mod shrink;
+mod steps;
 mod trial;
+mod wire;
 mod world;
 
 use std::collections::BTreeMap;
@@ -25,7 +27,7 @@ use self::contract::Domain;
 use self::policy::{Policy, domain_text, policy_text};
 use self::shrink::{Reduced, shrink};
 pub use self::trial::SeededFault;
-use self::trial::{Bench, Checked, Finding, Graphs, Mistake, Needs};
+use self::trial::{Bench, Checked, Finding, Graphs, Mistake, Needs, REFUTED};
 use crate::Workers;
 
 /// Number of policies over one domain.
@@ -47,9 +49,13 @@ pub struct Sums {
     pub policies: usize,
     /// Of these, policies that the check accepts.
     pub accepted: usize,
-    /// Policies with a refuted need.
+    /// Of these, policies with a goal.
+    pub goals: usize,
+    /// Of these, policies of which the check calls the goal proven.
+    pub goals_proven: usize,
+    /// Policies with a refuted need or goal.
     pub refuted: usize,
-    /// Of these, policies of which no run breaks a need.
+    /// Of these, policies of which no run breaks a need or misses the goal.
     pub refuted_in_vain: usize,
     /// Policies with another error, by its codes.
     pub other: BTreeMap<String, usize>,
@@ -138,7 +144,8 @@ pub fn play(documents: &[(String, String)], seed: u64, fault: Option<SeededFault
         for policy in parsed.file.runnable() {
             let (policy, sums) = (&policy.name.text, &mut fuzzed.sums);
             sums.policies += 1;
-            match bench.check_document(&parsed, policy) {
+            let goal = read::goal(&parsed.file, policy, &domain).map_err(|why| format!("{name}: {why}"))?;
+            match bench.check_document(&parsed, policy, goal.as_ref()) {
                 Checked::Accepted(graphs) => {
                     for (mistake, (seed, place)) in mistakes(&bench, &graphs, seed..seed + PLAYED, sums) {
                         let (what, trace) = (mistake.text(), lines(&bench.trace(&graphs, seed)));
@@ -146,7 +153,7 @@ pub fn play(documents: &[(String, String)], seed: u64, fault: Option<SeededFault
                         fuzzed.findings.push(told);
                     }
                 }
-                Checked::Refuted => sums.refuted += 1,
+                Checked::Refuted(_) => sums.refuted += 1,
                 Checked::Other(codes) => *sums.other.entry(codes.join(" ")).or_default() += 1,
             }
         }
@@ -163,6 +170,10 @@ fn mistakes(
     sums: &mut Sums,
 ) -> BTreeMap<Mistake, (u64, String)> {
     sums.accepted += 1;
+    if let Some(goal) = graphs.goal() {
+        sums.goals += 1;
+        sums.goals_proven += usize::from(goal.is_proven);
+    }
     let mut mistakes = BTreeMap::new();
     for seed in seeds {
         sums.runs += 1;
@@ -194,7 +205,7 @@ fn fuzz_domain(
     let (mut sums, mut found) = (Sums { policies: count, ..Sums::default() }, Vec::new());
     let mut in_vain = Vec::new();
     for number in 0..count as u64 {
-        let policy = make::policy(&mut dice, &domain);
+        let policy = steps::policy(&mut dice, &domain);
         let base = first.wrapping_mul(997).wrapping_add(number * RUNS) & !3;
         let seeds: Vec<u64> = (0..RUNS).map(|run| base.wrapping_add(run)).collect();
         match bench.check(&policy) {
@@ -204,16 +215,21 @@ fn fuzz_domain(
                     found.push(Found { domain, policy, mistake, seeds });
                 }
             }
-            Checked::Refuted => {
+            Checked::Refuted(codes) => {
                 sums.refuted += 1;
                 if let Checked::Accepted(graphs) = bare.check(&policy) {
+                    let [need, goal] = REFUTED.map(|code| codes.contains(&code));
                     let breaks = |seed: &u64| {
                         let findings = bare.run(&graphs, *seed, Needs::Dropped);
-                        findings.iter().any(|found| found.mistake == Mistake::Proven)
+                        findings.iter().any(|found| match found.mistake {
+                            Mistake::Proven => need,
+                            Mistake::Goal => goal,
+                            _ => false,
+                        })
                     };
                     if !seeds.iter().any(breaks) {
                         sums.refuted_in_vain += 1;
-                        in_vain.push(domain_text(&domain, true) + &policy_text(&domain, &policy));
+                        in_vain.push(domain_text(&domain, true) + &policy_text(&domain, &policy, true));
                     }
                 }
             }
@@ -227,6 +243,8 @@ impl Sums {
     fn add(&mut self, other: &Self) {
         self.policies += other.policies;
         self.accepted += other.accepted;
+        self.goals += other.goals;
+        self.goals_proven += other.goals_proven;
         self.refuted += other.refuted;
         self.refuted_in_vain += other.refuted_in_vain;
         self.runs += other.runs;
@@ -242,7 +260,8 @@ impl Sums {
 impl Reduced {
     fn text(&self) -> String {
         let what = self.finding.mistake.text();
-        let (domain, policy) = (domain_text(&self.domain, true), policy_text(&self.domain, &self.policy));
+        let (domain, policy) =
+            (domain_text(&self.domain, true), policy_text(&self.domain, &self.policy, true));
         let trace = lines(&self.trace);
         format!("// {} {what} (run {})\n{domain}{policy}{trace}", self.finding.place, self.seed)
     }

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use super::contract::{Action, Arg, Atom, Change, Condition, Domain, Kind, Need};
+use super::make::BASE;
 
 /// A step.
 #[derive(Clone, Debug)]
@@ -13,7 +14,18 @@ pub(super) enum Step {
         args: Vec<Arg>,
         name: Option<usize>,
         retry: u32,
+        /// Speed of its motion, one of [`MANNERS`]; empty for the robot's own.
+        manner: &'static str,
+        /// True if it has a deadline of its own.
+        is_bounded: bool,
     },
+    /// Another name for an entity or a name.
+    Let {
+        name: usize,
+        value: Arg,
+    },
+    /// Words with the text of a failure.
+    Say(usize),
     /// Choice of a person among entities.
     Choose {
         among: Vec<usize>,
@@ -28,8 +40,7 @@ pub(super) enum Step {
     Wait(Condition),
     /// A wait for a time.
     Delay,
-    /// Handlers by kinds of failure; none for any.
-    Try(Vec<Self>, Vec<(Vec<&'static str>, Vec<Self>)>),
+    Try(Vec<Self>, Vec<Handler>),
     Finally(Vec<Self>, Vec<Self>),
     Repeat(u32, Vec<Self>, Option<Condition>),
     Each {
@@ -37,19 +48,32 @@ pub(super) enum Step {
         name: usize,
         body: Vec<Self>,
     },
-    Monitor(Watch, Reaction, Vec<Self>),
+    Monitor(Vec<Rule>, Vec<Self>),
     /// A distance is kept from an entity or a name.
     Keep(Arg, Vec<Self>),
     Within(Vec<Self>),
     Parallel(Vec<Vec<Self>>),
-    /// A call of a policy with an argument.
-    Policy(usize, Arg),
+    /// A call of a policy with an argument; `name` is that of its result.
+    Policy(usize, Arg, Option<usize>),
     /// The end of the policy, one of [`ENDS`].
     End(&'static str),
+    /// The end of a policy with a result.
+    Give(Arg),
 }
 
 /// Endings of a policy, as text.
 pub(super) const ENDS: [&str; 4] = ["done", "fail \"no\"", "cannot \"no\"", "replan \"no\""];
+
+/// Manners of a motion, as text.
+pub(super) const MANNERS: [&str; 3] = [" slowly", " gently", " at 30 %"];
+
+/// Handler of kinds of failure, of any without one; `name` is that of the failure.
+#[derive(Clone, Debug)]
+pub(super) struct Handler {
+    pub(super) kinds: Vec<&'static str>,
+    pub(super) name: Option<usize>,
+    pub(super) steps: Vec<Step>,
+}
 
 /// Objects that a loop goes over.
 #[derive(Clone, Debug)]
@@ -59,11 +83,12 @@ pub(super) enum Among {
     List(usize),
 }
 
-/// Condition of a monitor, and the time in s for which it has to hold.
+/// Condition of a monitor, the time in s for which it has to hold, and the reaction to it.
 #[derive(Clone, Debug)]
-pub(super) struct Watch {
+pub(super) struct Rule {
     pub(super) condition: Condition,
     pub(super) for_secs: u32,
+    pub(super) reaction: Reaction,
 }
 
 /// Reaction of a monitor.
@@ -80,10 +105,21 @@ pub(super) enum Reaction {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Policy {
     pub(super) body: Vec<Step>,
-    /// The name of the parameter, and the steps.
-    pub(super) called: Vec<(usize, Vec<Step>)>,
+    pub(super) cleanup: Vec<Step>,
+    pub(super) goal: Option<Condition>,
+    pub(super) called: Vec<Called>,
     /// Steps of a policy that takes over in mid-run; none without one.
     pub(super) later: Vec<Step>,
+}
+
+/// A policy that is called with an object.
+#[derive(Clone, Debug)]
+pub(super) struct Called {
+    /// Name of the parameter.
+    pub(super) param: usize,
+    pub(super) body: Vec<Step>,
+    /// True if it gives an object.
+    pub(super) gives: bool,
 }
 
 impl Step {
@@ -92,15 +128,22 @@ impl Step {
     pub(super) fn blocks(&self) -> Vec<&Vec<Self>> {
         match self {
             Self::Call { .. } | Self::Choose { .. } | Self::First { .. } | Self::Policy(..) => Vec::new(),
+            Self::Let { .. } | Self::Say(_) | Self::Give(_) => Vec::new(),
             Self::Wait(_) | Self::Delay | Self::End(_) => Vec::new(),
             Self::If(_, one, other) | Self::Finally(one, other) => vec![one, other],
             Self::Try(body, handlers) => {
-                std::iter::once(body).chain(handlers.iter().map(|(_, steps)| steps)).collect()
+                let handlers = handlers.iter().map(|handler| &handler.steps);
+                std::iter::once(body).chain(handlers).collect()
             }
             Self::Repeat(_, body, _) | Self::Each { body, .. } => vec![body],
             Self::Keep(_, body) | Self::Within(body) => vec![body],
-            Self::Monitor(_, Reaction::Resume(_, reaction), body) => vec![body, reaction],
-            Self::Monitor(_, _, body) => vec![body],
+            Self::Monitor(rules, body) => {
+                let reactions = rules.iter().filter_map(|rule| match &rule.reaction {
+                    Reaction::Resume(_, steps) => Some(steps),
+                    Reaction::Pause | Reaction::Restart(_) | Reaction::End(_) => None,
+                });
+                std::iter::once(body).chain(reactions).collect()
+            }
             Self::Parallel(branches) => branches.iter().collect(),
         }
     }
@@ -109,17 +152,29 @@ impl Step {
     pub(super) fn blocks_mut(&mut self) -> Vec<&mut Vec<Self>> {
         match self {
             Self::Call { .. } | Self::Choose { .. } | Self::First { .. } | Self::Policy(..) => Vec::new(),
+            Self::Let { .. } | Self::Say(_) | Self::Give(_) => Vec::new(),
             Self::Wait(_) | Self::Delay | Self::End(_) => Vec::new(),
             Self::If(_, one, other) | Self::Finally(one, other) => vec![one, other],
             Self::Try(body, handlers) => {
-                std::iter::once(body).chain(handlers.iter_mut().map(|(_, steps)| steps)).collect()
+                let handlers = handlers.iter_mut().map(|handler| &mut handler.steps);
+                std::iter::once(body).chain(handlers).collect()
             }
             Self::Repeat(_, body, _) | Self::Each { body, .. } => vec![body],
             Self::Keep(_, body) | Self::Within(body) => vec![body],
-            Self::Monitor(_, Reaction::Resume(_, reaction), body) => vec![body, reaction],
-            Self::Monitor(_, _, body) => vec![body],
+            Self::Monitor(rules, body) => {
+                let reactions = rules.iter_mut().filter_map(|rule| match &mut rule.reaction {
+                    Reaction::Resume(_, steps) => Some(steps),
+                    Reaction::Pause | Reaction::Restart(_) | Reaction::End(_) => None,
+                });
+                std::iter::once(body).chain(reactions).collect()
+            }
             Self::Parallel(branches) => branches.iter_mut().collect(),
         }
+    }
+
+    /// True for a step with blocks behind which a cleanup may stand.
+    fn may_clean_up(&self) -> bool {
+        !self.blocks().is_empty() && !matches!(self, Self::Finally(..))
     }
 }
 
@@ -158,19 +213,23 @@ pub(super) fn domain_text(domain: &Domain, with_needs: bool) -> String {
     writer.out
 }
 
-/// A policy `p`, behind those that it calls, and before the policy `later` that takes over.
+/// A policy `p`, behind those that it calls, and before the policy `later` that takes over; without its goal,
+/// if that is to be left out.
 #[must_use]
-pub(super) fn policy_text(domain: &Domain, policy: &Policy) -> String {
+pub(super) fn policy_text(domain: &Domain, policy: &Policy, with_goal: bool) -> String {
     let mut writer = Writer { domain, out: String::new(), groups: 0 };
-    for (index, (name, body)) in policy.called.iter().enumerate() {
-        let _ = writeln!(writer.out, "policy q{index}(m{name}: Object) {{");
-        writer.block(body, 1);
-        writer.out.push_str("}\n");
+    for (index, Called { param, body, gives }) in policy.called.iter().enumerate() {
+        let result = if *gives { " -> Object" } else { "" };
+        writer.nested(0, &format!("policy q{index}(m{param}: Object){result}"), body);
     }
-    for (name, body) in [("p", &policy.body), ("later", &policy.later)] {
-        if name == "p" || !body.is_empty() {
-            writer.nested(0, &format!("policy {name}"), body);
-        }
+    let goal = policy.goal.as_ref().filter(|_| with_goal);
+    let goal = goal.map_or_else(String::new, |goal| format!(" achieves {}", writer.condition(goal)));
+    writer.nested(0, &format!("policy p{goal}"), &policy.body);
+    if !policy.cleanup.is_empty() {
+        writer.behind(" finally", &policy.cleanup, 0);
+    }
+    if !policy.later.is_empty() {
+        writer.nested(0, "policy later", &policy.later);
     }
     writer.out
 }
@@ -203,6 +262,7 @@ impl Writer<'_> {
         }
         clause("makes", action.makes.iter().map(|change| writer.change(change, change.truth)).collect());
         clause("unsettles", action.unsettles.iter().map(|change| writer.change(change, true)).collect());
+        clause("lasts until", action.is_stale_by_base.then(|| BASE.to_owned()).into_iter().collect());
         clause("uses", action.uses.iter().map(|&name| name.to_owned()).collect());
         clause("takes", vec!["1 s .. 4 s".to_owned()]);
         clause("fails", action.fails.iter().map(|&name| name.to_owned()).collect());
@@ -260,6 +320,8 @@ impl Writer<'_> {
             },
             Condition::All(all) => parts(all, " and "),
             Condition::AnyOf(some) => parts(some, " or "),
+            Condition::Kind(failure, kind) => format!("k{failure}.kind == {kind}"),
+            Condition::Empty(list) => format!("is_empty(l{list})"),
         }
     }
 
@@ -279,7 +341,7 @@ impl Writer<'_> {
 
     fn step(&mut self, step: &Step, depth: usize) {
         match step {
-            Step::Call { action, args, name, retry } => {
+            Step::Call { action, args, name, retry, manner, is_bounded } => {
                 let Some(action) = self.domain.actions.get(*action) else { return };
                 let mut args: Vec<String> = args.iter().map(|arg| self.arg(*arg)).collect();
                 if action.finds || action.finds_all {
@@ -288,8 +350,12 @@ impl Writer<'_> {
                 let sort = if action.finds_all { 'l' } else { 'm' };
                 let name = name.map_or_else(String::new, |name| format!("let {sort}{name} = "));
                 let retry = if *retry > 0 { format!(" retry {retry}") } else { String::new() };
-                self.line(depth, &format!("{name}{}({}){retry}", action.name, args.join(", ")));
+                let within = if *is_bounded { " within 3 s" } else { "" };
+                let call = format!("{name}{}({})", action.name, args.join(", "));
+                self.line(depth, &format!("{call}{manner}{within}{retry}"));
             }
+            Step::Let { name, value } => self.line(depth, &format!("let m{name} = {}", self.arg(*value))),
+            Step::Say(failure) => self.line(depth, &format!("say(\"it failed: {{k{failure}}}\")")),
             Step::Choose { among, name } => {
                 let text = format!("let m{name} = choose(\"which?\", [{}])", self.names(among));
                 self.line(depth, &text);
@@ -298,25 +364,25 @@ impl Writer<'_> {
             Step::If(test, then, otherwise) => {
                 self.nested(depth, &format!("if {}", self.condition(test)), then);
                 if !otherwise.is_empty() {
-                    self.out.truncate(self.out.trim_end().len());
-                    self.nested(0, " else", otherwise);
+                    self.behind(" else", otherwise, depth);
                 }
             }
             Step::Wait(test) => self.line(depth, &format!("wait until {} within 3 s", self.condition(test))),
             Step::Delay => self.line(depth, "wait 2 s"),
             Step::Try(body, handlers) => {
                 self.nested(depth, "try", body);
-                for (kinds, handler) in handlers {
-                    self.out.truncate(self.out.trim_end().len());
+                for Handler { kinds, name, steps } in handlers {
                     let kinds = if kinds.is_empty() { "any".to_owned() } else { kinds.join(", ") };
-                    self.nested(0, &format!(" catch {kinds}"), handler);
+                    let name = name.map_or_else(String::new, |name| format!(" as k{name}"));
+                    self.behind(&format!(" catch {kinds}{name}"), steps, depth);
                 }
             }
             Step::Finally(body, cleanup) => {
-                self.groups += 1;
-                self.nested(depth, &format!("sequence s{}", self.groups), body);
-                self.out.truncate(self.out.trim_end().len());
-                self.nested(0, " finally", cleanup);
+                match &**body {
+                    [only] if only.may_clean_up() => self.step(only, depth),
+                    _ => self.group(body, depth),
+                }
+                self.behind(" finally", cleanup, depth);
             }
             Step::Repeat(times, body, until) => {
                 self.nested(depth, &format!("repeat {times}"), body);
@@ -334,21 +400,16 @@ impl Writer<'_> {
                 let text = format!("each m{name} in {among} at most 3");
                 self.nested(depth, &text, body);
             }
-            Step::Monitor(Watch { condition, for_secs }, reaction, body) => {
-                let held = if *for_secs > 0 { format!(" for {for_secs} s") } else { String::new() };
-                let then = format!("monitor when {}{held} then", self.condition(condition));
-                match reaction {
-                    Reaction::Pause => self.nested(depth, &format!("{then} pause during"), body),
-                    Reaction::End(end) => self.nested(depth, &format!("{then} {end} during"), body),
-                    Reaction::Restart(count) => {
-                        self.nested(depth, &format!("{then} restart at most {count} during"), body);
-                    }
-                    Reaction::Resume(count, reaction) => {
-                        self.nested(depth, &format!("{then} resume at most {count}"), reaction);
-                        self.out.truncate(self.out.trim_end().len());
-                        self.nested(0, " during", body);
-                    }
+            Step::Monitor(rules, body) => {
+                let single = rules.len() == 1;
+                self.line(depth, if single { "monitor" } else { "monitor {" });
+                for rule in rules {
+                    self.rule(rule, if single { depth } else { depth + 1 });
                 }
+                if !single {
+                    self.line(depth, "}");
+                }
+                self.nested(depth, "during", body);
             }
             Step::Keep(of, body) => {
                 let text = format!("keep distance({}) >= 1 m", self.arg(*of));
@@ -360,12 +421,46 @@ impl Writer<'_> {
                 branches.iter().for_each(|branch| self.nested(depth + 1, "", branch));
                 self.line(depth, "}");
             }
-            Step::Policy(index, arg) => {
-                let text = format!("q{index}({})", self.arg(*arg));
+            Step::Policy(index, arg, name) => {
+                let name = name.map_or_else(String::new, |name| format!("let m{name} = "));
+                let text = format!("{name}q{index}({})", self.arg(*arg));
                 self.line(depth, &text);
             }
             Step::End(end) => self.line(depth, end),
+            Step::Give(arg) => self.line(depth, &format!("done {}", self.arg(*arg))),
         }
+    }
+
+    fn rule(&mut self, rule: &Rule, depth: usize) {
+        let held = if rule.for_secs > 0 { format!(" for {} s", rule.for_secs) } else { String::new() };
+        let then = format!("when {}{held} then", self.condition(&rule.condition));
+        match &rule.reaction {
+            Reaction::Pause => self.line(depth, &format!("{then} pause")),
+            Reaction::End(end) => self.line(depth, &format!("{then} {end}")),
+            Reaction::Restart(count) => self.line(depth, &format!("{then} restart at most {count}")),
+            Reaction::Resume(count, steps) => {
+                self.nested(depth, &format!("{then} resume at most {count}"), steps);
+            }
+        }
+    }
+
+    /// A group of steps: a sequence, or a `try` that catches nothing.
+    fn group(&mut self, body: &[Step], depth: usize) {
+        self.groups += 1;
+        let head = if self.groups.is_multiple_of(2) {
+            "try".to_owned()
+        } else {
+            format!("sequence s{}", self.groups)
+        };
+        self.nested(depth, &head, body);
+    }
+
+    /// A block on the line on which the one before it ends.
+    fn behind(&mut self, head: &str, body: &[Step], depth: usize) {
+        self.out.truncate(self.out.trim_end().len());
+        let _ = writeln!(self.out, "{head} {{");
+        self.block(body, depth + 1);
+        self.line(depth, "}");
     }
 
     fn nested(&mut self, depth: usize, head: &str, body: &[Step]) {

@@ -5,7 +5,7 @@ use motet_syntax::ast::{
 };
 
 use super::contract::{Action, Arg, Atom, Change, Condition, Domain, Kind, Need};
-use super::make::FAILURES;
+use super::make::{BASE, FAILURES};
 
 /// Names that a contract may use.
 #[derive(Clone, Copy)]
@@ -65,6 +65,17 @@ pub(super) fn domain(file: &File) -> Result<Domain, String> {
     Ok(domain)
 }
 
+/// Reads the goal of a policy.
+///
+/// # Errors
+///
+/// A goal that the worlds cannot judge, in words.
+pub(super) fn goal(file: &File, policy: &str, domain: &Domain) -> Result<Option<Condition>, String> {
+    let mut policies = file.policies().filter(|known| known.name.text == policy);
+    let goal = policies.find_map(|policy| policy.achieves.as_ref());
+    goal.map(|goal| condition(goal, domain, Scope { params: &[], each: None })).transpose()
+}
+
 fn named_kind(name: &str) -> Result<Kind, String> {
     let kinds = [Kind::Entity, Kind::Object, Kind::Container, Kind::Person, Kind::Place];
     kinds
@@ -106,8 +117,15 @@ fn action(decl: &PrimitiveDecl, domain: &Domain) -> Result<Action, String> {
                     .collect::<Result<_, _>>()
                     .map_err(|name| format!("the worlds never fail with `{name}`"))?;
             }
-            Clause::Uses(_) | Clause::Takes { .. } => {}
-            Clause::Motion(_) | Clause::Lasts(_) => return Err("the worlds have no motions".to_owned()),
+            Clause::Uses(uses) => {
+                action.uses = uses.iter().any(|name| &*name.text == BASE).then_some(BASE);
+            }
+            Clause::Takes { .. } => {}
+            Clause::Lasts(until) if until.iter().all(|name| &*name.text == BASE) => {
+                action.is_stale_by_base = true;
+            }
+            Clause::Lasts(_) => return Err("in the worlds a fact lasts until the base is used".to_owned()),
+            Clause::Motion(_) => return Err("the worlds have no motions".to_owned()),
         }
     }
     Ok(action)

@@ -1,7 +1,7 @@
 //! Smaller policies and domains with the same mistake.
 
 use super::contract::{Action, Domain};
-use super::policy::{Policy, Reaction, Step, Watch};
+use super::policy::{Called, Handler, Policy, Reaction, Rule, Step};
 use super::trial::{Bench, Checked, Finding, Mistake, Needs, SeededFault};
 
 /// Greatest number of candidates that are tried.
@@ -72,12 +72,16 @@ fn shows(
 fn policies(policy: &Policy) -> Vec<Policy> {
     let mut all: Vec<Policy> =
         blocks(&policy.body).into_iter().map(|body| Policy { body, ..policy.clone() }).collect();
+    all.extend(blocks(&policy.cleanup).into_iter().map(|cleanup| Policy { cleanup, ..policy.clone() }));
+    if policy.goal.is_some() {
+        all.push(Policy { goal: None, ..policy.clone() });
+    }
     all.extend(blocks(&policy.later).into_iter().map(|later| Policy { later, ..policy.clone() }));
     for index in 0..policy.called.len() {
-        let steps = policy.called.get(index).map(|(_, steps)| blocks(steps)).unwrap_or_default();
+        let steps = policy.called.get(index).map(|called| blocks(&called.body)).unwrap_or_default();
         for steps in steps {
             let mut smaller = policy.clone();
-            if let Some((_, body)) = smaller.called.get_mut(index) {
+            if let Some(Called { body, .. }) = smaller.called.get_mut(index) {
                 *body = steps;
             }
             all.push(smaller);
@@ -113,18 +117,37 @@ fn blocks(steps: &[Step]) -> Vec<Vec<Step>> {
 /// The same step with less of its own.
 fn simpler(step: &Step) -> Vec<Step> {
     match step {
-        Step::Call { action, args, name, retry } if *retry > 0 => {
-            vec![Step::Call { action: *action, args: args.clone(), name: *name, retry: retry - 1 }]
+        Step::Call { retry, manner, is_bounded, .. } => {
+            let with = |less: (u32, &'static str, bool)| {
+                let mut call = step.clone();
+                if let Step::Call { retry, manner, is_bounded, .. } = &mut call {
+                    (*retry, *manner, *is_bounded) = less;
+                }
+                call
+            };
+            let all = [
+                (*retry > 0).then(|| with((retry - 1, *manner, *is_bounded))),
+                (!manner.is_empty()).then(|| with((*retry, "", *is_bounded))),
+                is_bounded.then(|| with((*retry, *manner, false))),
+            ];
+            all.into_iter().flatten().collect()
         }
         Step::If(test, then, otherwise) if !otherwise.is_empty() => {
             vec![Step::If(test.clone(), then.clone(), Vec::new())]
         }
-        Step::Try(body, handlers) if handlers.len() > 1 => {
+        Step::Try(body, handlers) => {
             let without = |index: usize| {
                 let others = handlers.iter().enumerate().filter(|(at, _)| *at != index);
                 Step::Try(body.clone(), others.map(|(_, handler)| handler.clone()).collect())
             };
-            (0..handlers.len()).map(without).collect()
+            let nameless = |index: usize| {
+                let mut handlers = handlers.clone();
+                handlers.get_mut(index).into_iter().for_each(|handler| handler.name = None);
+                Step::Try(body.clone(), handlers)
+            };
+            let named = handlers.iter().zip(0..).filter(|(Handler { name, .. }, _)| name.is_some());
+            let named = named.map(|(_, index)| nameless(index));
+            (0..handlers.len()).filter(|_| handlers.len() > 1).map(without).chain(named).collect()
         }
         Step::Repeat(times, body, until) => {
             let mut all = Vec::new();
@@ -136,12 +159,28 @@ fn simpler(step: &Step) -> Vec<Step> {
             }
             all
         }
-        Step::Monitor(watch, reaction, body) if watch.for_secs > 0 => {
-            let watch = Watch { for_secs: 0, ..watch.clone() };
-            vec![Step::Monitor(watch, reaction.clone(), body.clone())]
-        }
-        Step::Monitor(watch, Reaction::Resume(count, reaction), body) if *count > 1 => {
-            vec![Step::Monitor(watch.clone(), Reaction::Resume(count - 1, reaction.clone()), body.clone())]
+        Step::Monitor(rules, body) => {
+            let mut all = Vec::new();
+            for (index, rule) in rules.iter().enumerate() {
+                let with = |instead: Option<Rule>| {
+                    let (before, behind) = (rules.iter().take(index), rules.iter().skip(index + 1));
+                    let rules = before.cloned().chain(instead).chain(behind.cloned());
+                    Step::Monitor(rules.collect(), body.clone())
+                };
+                if rules.len() > 1 {
+                    all.push(with(None));
+                }
+                if rule.for_secs > 0 {
+                    all.push(with(Some(Rule { for_secs: 0, ..rule.clone() })));
+                }
+                if let Reaction::Resume(count, steps) = &rule.reaction
+                    && *count > 1
+                {
+                    let reaction = Reaction::Resume(count - 1, steps.clone());
+                    all.push(with(Some(Rule { reaction, ..rule.clone() })));
+                }
+            }
+            all
         }
         _ => Vec::new(),
     }

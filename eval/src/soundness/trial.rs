@@ -3,21 +3,23 @@
 use motet_compiler::Session;
 use motet_graph::{Graph, NodeId, NodeKind, Value, Verdict};
 use motet_runtime::{
-    Command, Driver as _, Effect, Engine, Event, PreparedSwap, RunEnd, StartState, Time, TraceEventKind,
-    Truth,
+    Command, Driver, Effect, Engine, Event, PreparedSwap, RunEnd, StartState, Time, TraceEventKind, Truth,
 };
 use motet_syntax::{Parsed, Severity, Source, Sources};
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::SeedableRng as _;
 
-use super::contract::Domain;
+use super::contract::{Condition, Domain, Frame, Need};
 use super::policy::{Policy, domain_text, policy_text};
+use super::wire::{Shared, speak};
 use super::world::{Mood, World};
 
 /// Greatest number of events of a run.
 const MAX_EVENTS: usize = 5000;
-/// Code of a need that is refuted.
-const REFUTED: &str = "M0501";
+/// Longest time in s for which nothing is heard of a driver, and nothing is due.
+const MAX_SILENCE_SECS: f64 = 600.0;
+/// Codes of a need and of a goal that are refuted.
+pub(super) const REFUTED: [&str; 2] = ["M0501", "M0503"];
 
 /// Fault that is put into every graph, to show that the fuzzer finds it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -53,6 +55,16 @@ pub(super) enum Mistake {
     Refused,
     /// A guard refuses a need as unknown although everything can be observed.
     Unseen,
+    /// The goal is called proven, and is false when the policy is done.
+    Goal,
+    /// The goal is observed to hold when the policy is done, and is false.
+    Reached,
+    /// The goal is observed to be false when the policy is done, and holds.
+    Missed,
+    /// The goal stays unknown when the policy is done, although everything can be observed.
+    Unsure,
+    /// The host has something to say against a driver that keeps to the protocol.
+    Protocol,
     /// The run does not end.
     Endless,
 }
@@ -65,6 +77,11 @@ impl Mistake {
             Self::Passed => "was passed by its guard, and is false when its step begins",
             Self::Refused => "was refused by its guard as false, and holds",
             Self::Unseen => "was refused by its guard as unknown, and can be observed",
+            Self::Goal => "is called proven, and is false when the policy is done",
+            Self::Reached => "was observed to hold when the policy was done, and is false",
+            Self::Missed => "was observed to be false when the policy was done, and holds",
+            Self::Unsure => "stayed unknown when the policy was done, and can be observed",
+            Self::Protocol => "is what the host says of its driver",
             Self::Endless => "",
         }
     }
@@ -83,14 +100,23 @@ pub(super) struct Finding {
 pub(super) struct Graphs {
     first: Graph,
     later: Option<Graph>,
+    goal: Option<Goal>,
+}
+
+/// Goal of a policy.
+#[derive(Clone, Debug)]
+pub(super) struct Goal {
+    pub(super) condition: Condition,
+    /// True if the check calls it proven.
+    pub(super) is_proven: bool,
 }
 
 /// Result of checking a policy.
 #[derive(Debug)]
 pub(super) enum Checked {
     Accepted(Box<Graphs>),
-    /// A need is refuted.
-    Refuted,
+    /// A need or the goal is refuted; the codes, of [`REFUTED`].
+    Refuted(Vec<&'static str>),
     /// Something else is wrong with the document, with the codes.
     Other(Vec<&'static str>),
 }
@@ -99,7 +125,15 @@ pub(super) enum Checked {
 pub(super) struct Bench<'d> {
     pub(super) domain: &'d Domain,
     session: Session,
+    with_needs: bool,
     fault: Option<SeededFault>,
+}
+
+impl Graphs {
+    /// The goal of the policy.
+    pub(super) fn goal(&self) -> Option<&Goal> {
+        self.goal.as_ref()
+    }
 }
 
 impl<'d> Bench<'d> {
@@ -122,27 +156,28 @@ impl<'d> Bench<'d> {
         said.extend(session.input_diagnostics().iter().cloned());
         match said.iter().find(|said| said.severity == Severity::Error) {
             Some(wrong) => Err(format!("{}: {}\n{}", wrong.code.0, wrong.message, source.text)),
-            None => Ok(Self { domain, session, fault }),
+            None => Ok(Self { domain, session, with_needs, fault }),
         }
     }
 
     /// A session over nothing, for documents that declare the domain themselves.
     pub(super) fn bare(domain: &'d Domain, fault: Option<SeededFault>) -> Self {
-        Self { domain, session: Session::builder().build(&mut Sources::default()), fault }
+        let session = Session::builder().build(&mut Sources::default());
+        Self { domain, session, with_needs: true, fault }
     }
 
     /// Checks a policy.
     #[must_use]
     pub(super) fn check(&self, policy: &Policy) -> Checked {
         let mut sources = Sources::default();
-        let source = Source::new("policy.motet", policy_text(self.domain, policy));
+        let source = Source::new("policy.motet", policy_text(self.domain, policy, self.with_needs));
         let id = sources.add(source.clone());
         let parsed = motet_syntax::read(&source, id);
-        let mut checked = self.check_document(&parsed, "p");
+        let mut checked = self.check_document(&parsed, "p", policy.goal.as_ref());
         if let Checked::Accepted(graphs) = &mut checked
             && !policy.later.is_empty()
         {
-            match self.check_document(&parsed, "later") {
+            match self.check_document(&parsed, "later", None) {
                 Checked::Accepted(later) => graphs.later = Some(later.first),
                 refused => return refused,
             }
@@ -150,9 +185,9 @@ impl<'d> Bench<'d> {
         checked
     }
 
-    /// Checks a policy of a document.
+    /// Checks a policy of a document, with its goal.
     #[must_use]
-    pub(super) fn check_document(&self, parsed: &Parsed, policy: &str) -> Checked {
+    pub(super) fn check_document(&self, parsed: &Parsed, policy: &str, goal: Option<&Condition>) -> Checked {
         let compiled = self.session.compile(parsed, Some(policy));
         let errors = compiled.diagnostics.iter().filter(|said| said.severity == Severity::Error);
         let mut codes: Vec<&'static str> = errors.map(|said| said.code.0).collect();
@@ -161,9 +196,17 @@ impl<'d> Bench<'d> {
         match compiled.graph {
             Some(mut graph) if codes.is_empty() => {
                 self.fault.into_iter().for_each(|fault| fault.put_into(&mut graph));
-                Checked::Accepted(Box::new(Graphs { first: graph, later: None }))
+                let goal = goal.map(|condition| {
+                    // Without its needs a policy is judged as if everything were proven.
+                    let is_trusted = !self.with_needs || self.fault == Some(SeededFault::ProvesTooMuch);
+                    let is_proven = is_trusted || self.session.proves_goals(parsed);
+                    Goal { condition: condition.clone(), is_proven }
+                });
+                Checked::Accepted(Box::new(Graphs { first: graph, later: None, goal }))
             }
-            _ if codes == [REFUTED] => Checked::Refuted,
+            _ if !codes.is_empty() && codes.iter().all(|code| REFUTED.contains(code)) => {
+                Checked::Refuted(codes)
+            }
             _ => Checked::Other(codes),
         }
     }
@@ -171,22 +214,31 @@ impl<'d> Bench<'d> {
     /// Runs a policy in a world of a seed.
     #[must_use]
     pub(super) fn run(&self, graphs: &Graphs, seed: u64, needs: Needs) -> Vec<Finding> {
-        self.prepared(graphs, seed, needs, None).map_or_else(Vec::new, |run| run.whole().findings)
+        let way = match needs {
+            Needs::Compiled => Way::of(seed),
+            Needs::Dropped => Way::Direct,
+        };
+        self.played(graphs, seed, (needs, way), None).map_or_else(Vec::new, |run| run.findings)
     }
 
     /// Runs a policy, and returns what happened, line by line.
     #[must_use]
     pub(super) fn trace(&self, graphs: &Graphs, seed: u64) -> Vec<String> {
-        let run = self.prepared(graphs, seed, Needs::Compiled, Some(Vec::new()));
-        run.and_then(|run| run.whole().log).unwrap_or_default()
+        self.trace_on(graphs, seed, Way::of(seed))
     }
 
-    /// A run that is about to begin.
-    fn prepared(
+    /// The same on a way to the world.
+    pub(super) fn trace_on(&self, graphs: &Graphs, seed: u64, way: Way) -> Vec<String> {
+        let run = self.played(graphs, seed, (Needs::Compiled, way), Some(Vec::new()));
+        run.and_then(|run| run.log).unwrap_or_default()
+    }
+
+    /// A run to its end.
+    fn played(
         &self,
         graphs: &Graphs,
         seed: u64,
-        needs: Needs,
+        (needs, way): (Needs, Way),
         mut log: Option<Vec<String>>,
     ) -> Option<Run<'_>> {
         let mut world = self.world(seed);
@@ -200,9 +252,30 @@ impl<'d> Bench<'d> {
         // A quarter of the runs is seen to its end.
         let after = (seed / 4) % 16;
         let later = graphs.later.clone().map(|later| (after, later)).filter(|(after, _)| *after < 12);
-        let (findings, bindings) = (Vec::new(), Vec::new());
-        let (has_swapped, testing) = (false, Vec::new());
-        Some(Run { engine, world, mood, needs, later, has_swapped, testing, findings, bindings, log })
+        let world = Shared::new(world);
+        let mut run = Run {
+            engine,
+            world: world.clone(),
+            mood,
+            needs,
+            later,
+            goal: graphs.goal.clone(),
+            has_swapped: false,
+            is_judged: false,
+            testing: Vec::new(),
+            findings: Vec::new(),
+            bindings: Vec::new(),
+            log,
+        };
+        match way {
+            Way::Direct => run.whole(&mut world.clone()),
+            Way::Protocol => {
+                let spoken = speak(&world, &graphs.first, |driver| run.whole(driver));
+                let notes = spoken.map_or_else(|why| vec![why], |((), notes)| notes);
+                notes.into_iter().for_each(|note| run.note(Mistake::Protocol, note));
+            }
+        }
+        Some(run)
     }
 
     /// A world of a seed, which also decides its mood.
@@ -213,6 +286,21 @@ impl<'d> Bench<'d> {
             _ => Mood::Veiled,
         };
         World::new(self.domain, mood, SplitMix64::seed_from_u64(seed))
+    }
+}
+
+/// Way from the engine to the world.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Way {
+    Direct,
+    /// Over the driver protocol.
+    Protocol,
+}
+
+impl Way {
+    /// One run in eight speaks with its world over the driver protocol, in each of its moods.
+    const fn of(seed: u64) -> Self {
+        if seed % 8 == (seed / 8) % 8 { Self::Protocol } else { Self::Direct }
     }
 }
 
@@ -227,12 +315,15 @@ pub(super) enum Needs {
 
 struct Run<'d> {
     engine: Engine,
-    world: World<'d>,
+    world: Shared<'d>,
     mood: Mood,
     needs: Needs,
     /// The number of events after which another policy takes over, and its graph.
     later: Option<(u64, Graph)>,
+    goal: Option<Goal>,
     has_swapped: bool,
+    /// True once the goal was observed.
+    is_judged: bool,
     /// Tests that have begun and have not come out.
     testing: Vec<NodeId>,
     findings: Vec<Finding>,
@@ -244,36 +335,39 @@ struct Run<'d> {
 
 impl Run<'_> {
     /// Runs to the end.
-    fn whole(mut self) -> Self {
+    fn whole(&mut self, driver: &mut dyn Driver) {
         let (mut now, mut event, mut effects) = (Time::ZERO, Event::Begin, Vec::new());
         for number in 0..MAX_EVENTS as u64 {
             self.log(now, || format!("< {event:?}"));
             self.engine.handle(now, event, &mut effects);
-            if self.carry_out(now, &mut effects) {
-                return self;
+            if self.carry_out(driver, now, &mut effects) {
+                return;
             }
             if let Some((_, graph)) = self.later.take_if(|(after, _)| *after == number) {
                 self.take_over(now, graph, &mut effects);
-                if self.carry_out(now, &mut effects) {
-                    return self;
+                if self.carry_out(driver, now, &mut effects) {
+                    return;
                 }
             }
             let wake = self.engine.wake_at().unwrap_or(Time::NEVER);
-            (now, event) = match self.world.advance(wake) {
-                Some((at, report)) => (at.max(now), Event::Driver(report)),
-                None if wake == Time::NEVER => {
+            let until = wake.min(now.after(Time::from_secs(MAX_SILENCE_SECS)));
+            (now, event) = match driver.advance(until) {
+                Some((at, report)) => {
+                    self.world.world().heard(&report);
+                    (at.max(now), Event::Driver(report))
+                }
+                None if until < wake => {
                     self.note(Mistake::Endless, "nothing is left to wait for".to_owned());
-                    return self;
+                    return;
                 }
                 None => (wake, Event::Tick),
             };
         }
         self.note(Mistake::Endless, format!("more than {MAX_EVENTS} events"));
-        self
     }
 
     /// Carries out what the engine asks for; returns true at the end of the run.
-    fn carry_out(&mut self, now: Time, effects: &mut Vec<Effect>) -> bool {
+    fn carry_out(&mut self, driver: &mut dyn Driver, now: Time, effects: &mut Vec<Effect>) -> bool {
         for effect in std::mem::take(effects) {
             match &effect {
                 Effect::Report(trace) => self.log(now, || format!("    {:?}", trace.what)),
@@ -281,8 +375,10 @@ impl Run<'_> {
             }
             match &effect {
                 Effect::Finished(end) => {
-                    if matches!(**end, RunEnd::Fault(_)) {
-                        self.note(Mistake::Endless, format!("{end}"));
+                    match **end {
+                        RunEnd::Fault(_) => self.note(Mistake::Endless, format!("{end}")),
+                        RunEnd::Done { .. } if !self.is_judged => self.judge_goal(None),
+                        _ => {}
                     }
                     return true;
                 }
@@ -293,7 +389,7 @@ impl Run<'_> {
                 }
                 _ => {}
             }
-            self.world.carry_out(now, &effect);
+            driver.carry_out(now, &effect);
         }
         false
     }
@@ -313,7 +409,7 @@ impl Run<'_> {
     /// Logs a line, if the run is to be shown.
     fn log(&mut self, now: Time, line: impl FnOnce() -> String) {
         if let Some(log) = &mut self.log {
-            for (at, fact) in self.world.changes.iter_mut().flat_map(|changes| changes.drain(..)) {
+            for (at, fact) in self.world.world().changes.iter_mut().flat_map(|changes| changes.drain(..)) {
                 log.push(format!("{:.2}   {fact}", at.secs()));
             }
             log.push(format!("{:.2} {}", now.secs(), line()));
@@ -332,15 +428,38 @@ impl Run<'_> {
         }
     }
 
+    /// The policy is done, and its goal was observed, if it can be: does it hold?
+    fn judge_goal(&mut self, observed: Option<Truth>) {
+        self.is_judged = true;
+        let Some(Goal { condition, is_proven }) = self.goal.clone().filter(|_| !self.has_swapped) else {
+            return;
+        };
+        let (world, frame) = (self.world.world(), Frame::default());
+        let holds = world.domain().holds(&condition, &frame, &world.state);
+        let need = Need { condition, each: None, when: None };
+        let is_moving = world.is_moving(&world.domain().asked(&need, &frame));
+        drop(world);
+        let mistake = match observed {
+            _ if is_proven && !holds => Mistake::Goal,
+            Some(Truth::True) if !holds && !is_moving => Mistake::Reached,
+            Some(Truth::False) if holds && !is_moving => Mistake::Missed,
+            Some(Truth::Unknown) if self.mood == Mood::Honest => Mistake::Unsure,
+            _ => return,
+        };
+        self.note(mistake, "the goal".to_owned());
+    }
+
     /// A step begins: do its needs hold?
     fn started(&mut self, node: NodeId, command: &Command) {
-        let Some((action, frame)) = self.world.called(command) else { return };
+        let Some((action, frame)) = self.world.world().called(command) else { return };
         let verdicts = self.verdicts(node);
         for (index, need) in action.needs.iter().enumerate() {
-            if self.world.domain().meets(need, &frame, &self.world.state) {
+            let world = self.world.world();
+            if world.domain().meets(need, &frame, &world.state) {
                 continue;
             }
-            let is_moving = self.world.is_moving(&self.world.domain().asked(need, &frame));
+            let is_moving = world.is_moving(&world.domain().asked(need, &frame));
+            drop(world);
             let mistake = match verdicts.get(index) {
                 // Nor can a policy that has taken over know what the steps before it are about to change.
                 Some(Verdict::Proven) if self.has_swapped && is_moving => continue,
@@ -368,7 +487,7 @@ impl Run<'_> {
             _ => {}
         }
         let is_parallel = || nodes.iter().any(|node| matches!(node.kind, NodeKind::Parallel { .. }));
-        self.world.is_tested = !self.testing.is_empty() && !is_parallel();
+        self.world.world().is_tested = !self.testing.is_empty() && !is_parallel();
     }
 
     /// A guard refuses: is it right?
@@ -380,9 +499,12 @@ impl Run<'_> {
                 .into_iter()
                 .for_each(|slot| *slot = Some((**value).clone()));
         }
+        if let TraceEventKind::GoalObserved { truth } = what {
+            self.judge_goal(Some(*truth));
+        }
         if matches!(what, TraceEventKind::Fired { .. }) {
             // A reaction goes by what has set it off.
-            self.world.calm();
+            self.world.world().calm();
         }
         let TraceEventKind::Guard { node, need, truth } = what else { return };
         if self.mood != Mood::Honest || *truth == Truth::True {
@@ -394,26 +516,30 @@ impl Run<'_> {
         };
         let (graph, index) = (self.engine.graph(), *need as usize);
         let primitive = graph.primitives.get(call.primitive.index());
-        let Some(action) = primitive.and_then(|primitive| self.world.action(&primitive.name)) else { return };
+        let Some(action) = primitive.and_then(|primitive| self.world.world().action(&primitive.name)) else {
+            return;
+        };
         let args = call.args.iter().filter_map(|arg| match arg {
             motet_graph::Term::Literal(value) => Some(value.clone()),
             motet_graph::Term::Binding(binding) => self.bindings.get(binding.index()).cloned().flatten(),
             _ => None,
         });
-        let frame = self.world.frame(args);
+        let frame = self.world.world().frame(args);
         if frame.params.len() < action.params.len() {
             // A name that the policy before it has bound.
             return;
         }
         let Some(need) = action.needs.get(index) else { return };
-        let (domain, state) = (self.world.domain(), &self.world.state);
-        if self.world.is_moving(&domain.asked(need, &frame)) {
+        let world = self.world.world();
+        if world.is_moving(&world.domain().asked(need, &frame)) {
             return;
         }
+        let holds = world.domain().meets(need, &frame, &world.state);
+        drop(world);
         let place = || format!("need {} of a call", index + 1);
         if *truth == Truth::Unknown {
             self.note(Mistake::Unseen, place());
-        } else if domain.meets(need, &frame, state) {
+        } else if holds {
             self.note(Mistake::Refused, place());
         }
     }

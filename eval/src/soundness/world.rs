@@ -11,7 +11,7 @@ use rand::RngExt as _;
 use rand_xoshiro::SplitMix64;
 
 use super::contract::{Action, Domain, Frame, Kind, State};
-use super::make::{chance, one_of};
+use super::make::{BASE, chance, one_of};
 
 /// Behaviour of a world.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -36,6 +36,8 @@ struct Running {
     unfinished: Vec<usize>,
     /// Cells that it makes, if it succeeds.
     makes: Vec<usize>,
+    /// Cells that it perceives to be true for a time.
+    perceives: Vec<usize>,
     /// Changes that are still to come, each at its time.
     flips: Vec<(Time, usize, bool)>,
     ends: Time,
@@ -55,6 +57,8 @@ pub(super) struct World<'d> {
     veiled: Vec<bool>,
     /// Of a cell that a step has made, all that it made.
     made_with: BTreeMap<usize, Vec<usize>>,
+    /// Cells that were perceived, and are so only until a step uses the base.
+    perceived: Vec<usize>,
     /// True while a test looks at the hands: then something may have dropped.
     pub(super) is_tested: bool,
     running: Vec<Running>,
@@ -64,6 +68,8 @@ pub(super) struct World<'d> {
     /// Reports, each at its time.
     outbox: VecDeque<(Time, DriverEvent)>,
     holds: bool,
+    /// True where an answer is never late: over the driver protocol the host waits for it.
+    pub(super) answers_at_once: bool,
     /// Number of changes that nobody made, so far.
     whims: u32,
     next_whim: Time,
@@ -98,12 +104,14 @@ impl<'d> World<'d> {
             state,
             veiled,
             made_with: BTreeMap::new(),
+            perceived: Vec::new(),
             is_tested: false,
             running: Vec::new(),
             unheard: Vec::new(),
             watches: Vec::new(),
             outbox: VecDeque::new(),
             holds,
+            answers_at_once: false,
             whims: 0,
             next_whim: Time::NEVER,
             changes: None,
@@ -160,6 +168,30 @@ impl<'d> World<'d> {
     #[must_use]
     pub(super) fn is_hidden(&self, cells: &[usize]) -> bool {
         cells.iter().any(|cell| self.veiled.get(*cell).copied().unwrap_or(false))
+    }
+
+    /// Present time.
+    #[must_use]
+    pub(super) fn now(&self) -> Time {
+        self.now
+    }
+
+    /// True if something is to be reported now.
+    #[must_use]
+    pub(super) fn is_due(&self) -> bool {
+        self.outbox.front().is_some_and(|(at, _)| *at <= self.now)
+    }
+
+    /// What is to be reported now, the oldest first.
+    pub(super) fn due(&mut self) -> Option<DriverEvent> {
+        self.is_due().then(|| self.outbox.pop_front()).flatten().map(|(_, event)| event)
+    }
+
+    /// The host has heard of something.
+    pub(super) fn heard(&mut self, event: &DriverEvent) {
+        if let DriverEvent::Ended { goal, .. } | DriverEvent::Stopped { goal } = event {
+            self.unheard.retain(|(ended, _)| ended != goal);
+        }
     }
 
     /// From now on nothing changes by itself.
@@ -307,8 +339,11 @@ impl<'d> World<'d> {
             flips.sort_by_key(|(at, ..)| *at);
         }
         flips.extend(finally.into_iter().map(|(cell, truth)| (ends, cell, truth)));
-        let makes = made.iter().filter(|_| succeeds).map(|(cell, _)| *cell).collect();
-        Running { id, touches, unfinished, makes, flips, ends, outcome, held: None }
+        let makes: Vec<usize> = made.iter().filter(|_| succeeds).map(|(cell, _)| *cell).collect();
+        let lasts =
+            |(cell, truth): &&(usize, bool)| action.is_stale_by_base && *truth && makes.contains(cell);
+        let perceives = made.iter().filter(lasts).map(|(cell, _)| *cell).collect();
+        Running { id, touches, unfinished, makes, perceives, flips, ends, outcome, held: None }
     }
 
     /// Lets what a hand holds drop: nothing that the step which took it has made need be so any more.
@@ -352,6 +387,7 @@ impl<'d> World<'d> {
         }
         let goal = self.running.remove(place);
         self.made_with.retain(|cell, _| !goal.touches.contains(cell));
+        self.perceived.retain(|cell| !goal.touches.contains(cell));
         self.unheard.push((id, goal.touches));
         for cell in goal.unfinished {
             if chance(&mut self.dice, 50) {
@@ -388,6 +424,8 @@ impl<'d> World<'d> {
         }
         let goal = self.running.remove(place);
         self.made_with.retain(|cell, _| !goal.touches.contains(cell));
+        self.perceived.retain(|cell| !goal.touches.contains(cell));
+        self.perceived.extend(goal.perceives);
         self.made_with.extend(goal.makes.iter().map(|cell| (*cell, goal.makes.clone())));
         self.unheard.push((goal.id, goal.touches));
         self.say(now, DriverEvent::Ended { goal: goal.id, outcome: goal.outcome });
@@ -430,15 +468,32 @@ impl Driver for World<'_> {
             };
             self.say(now, DriverEvent::Acknowledged { goal });
             let ends = now.after(Time::from_secs(0.5));
-            let (touches, unfinished, makes, flips) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-            let (id, outcome) = (goal, Outcome::Success(chosen));
-            self.running.push(Running { id, touches, unfinished, makes, flips, ends, outcome, held: None });
+            let outcome = Outcome::Success(chosen);
+            let [touches, unfinished, makes, perceives] = [const { Vec::new() }; 4];
+            self.running.push(Running {
+                id: goal,
+                touches,
+                unfinished,
+                makes,
+                perceives,
+                flips: Vec::new(),
+                ends,
+                outcome,
+                held: None,
+            });
             return;
         };
         if self.mood != Mood::Honest && chance(&mut self.dice, 3) {
             return self.say(now, DriverEvent::Refused { goal, failure: "blocked".into() });
         }
         self.say(now, DriverEvent::Acknowledged { goal });
+        if action.uses == Some(BASE) {
+            for cell in std::mem::take(&mut self.perceived) {
+                if chance(&mut self.dice, 50) {
+                    self.flip(cell, false);
+                }
+            }
+        }
         let outcome = self.outcome(action, &mut frame);
         let mut running = self.plan(goal, action, &frame, outcome);
         if self.mood != Mood::Honest && chance(&mut self.dice, 4) {
@@ -493,7 +548,8 @@ impl Driver for World<'_> {
             answer = Answer::Unknown;
         }
         // No answer is overtaken by a report of what is watched, or by a later answer to the same question.
-        let at = if self.is_watched(query) { now } else { self.late() };
+        let is_prompt = self.answers_at_once || self.is_watched(query);
+        let at = if is_prompt { now } else { self.late() };
         let is_same =
             |event: &DriverEvent| matches!(event, DriverEvent::Observed { query: of, .. } if of == query);
         let before = self.outbox.iter().rfind(|(_, event)| is_same(event)).map_or(at, |(at, _)| *at);
@@ -518,11 +574,7 @@ impl Driver for World<'_> {
             let (said, next) = (self.outbox.front().map_or(Time::NEVER, |(at, _)| *at), self.next());
             if said <= next && said <= until && said != Time::NEVER {
                 self.now = self.now.max(said);
-                let next = self.outbox.pop_front();
-                if let Some((_, DriverEvent::Ended { goal, .. } | DriverEvent::Stopped { goal })) = &next {
-                    self.unheard.retain(|(ended, _)| ended != goal);
-                }
-                return next;
+                return self.outbox.pop_front();
             }
             if next > until || next == Time::NEVER {
                 self.now = if until == Time::NEVER { self.now } else { self.now.max(until) };

@@ -24,14 +24,21 @@ fn soundness_no_need_of_a_random_policy_is_broken() {
     assert!(sums.accepted * 5 >= sums.policies, "{sums:?}");
     assert!(sums.refuted * 10 >= sums.policies, "{sums:?}");
     assert!(sums.refuted_in_vain * 2 <= sums.refuted, "{sums:?}");
+    // Goals are judged, and some are called proven.
+    assert!(sums.goals_proven * 2 >= sums.goals, "{sums:?}");
+    assert!(sums.goals * 5 >= sums.accepted, "{sums:?}");
 }
 
 #[test]
 fn soundness_finds_a_seeded_fault() {
-    for fault in [SeededFault::ProvesTooMuch, SeededFault::ForgetsUnsettled] {
-        let found = fuzz_with(Workers::default(), 400, 7, Some(fault)).unwrap();
-        assert!(!found.sums.findings.is_empty(), "{fault:?}");
+    let sorts: [(SeededFault, &[&str]); 2] =
+        [(SeededFault::ProvesTooMuch, &["proven", "goal"]), (SeededFault::ForgetsUnsettled, &["passed"])];
+    for (fault, sorts) in sorts {
+        let found = fuzz_with(Workers::default(), 600, 7, Some(fault)).unwrap();
         assert!(!found.findings.is_empty(), "{fault:?}");
+        for sort in sorts {
+            assert!(found.sums.findings.contains_key(*sort), "{fault:?}: {:?}", found.sums);
+        }
     }
 }
 

@@ -11,7 +11,7 @@ use motet_sim::{Sim, SimOptions};
 use motet_syntax::{FileId, Source, Sources};
 use motet_tests::{examples, setup};
 
-use crate::soundness::{compiled, honest, requests, session_codes, verdicts};
+use crate::soundness::{DOMAIN, compiled, honest, requests, session_codes, verdicts};
 
 #[test]
 fn start_the_simulated_room_agrees_with_the_pose_of_the_base() {
@@ -207,4 +207,38 @@ fn proofs_from_what_is_said_of_all_are_told_to_the_run() {
     let later = PreparedSwap::new(later, &engine.running()).unwrap();
     let refused = engine.swap(Time::ZERO, later, &mut out).err();
     assert!(matches!(refused, Some(SwapRefusal::Start { .. })), "{refused:?}");
+}
+
+/// That some fact of a pattern holds is asked of each pattern below it, which may have nothing left either.
+#[test]
+fn proofs_that_some_pair_has_it_look_below_each_pattern() {
+    let rope = "entity b: Object\nfluent tied(o: Object, p: Object)\n\
+                action tie(o: Object)\n    makes tied(o, any)\naction tie_all()\n    makes tied(any, any)\n\
+                action untie(o: Object)\n    makes not tied(o, any)\n\
+                perception loosen(what: Text) -> Object\n    makes not tied(a, result)\n\
+                action pull()\n    needs tied(any, any)\n";
+    let policy = |steps: &str| format!("{rope}policy p {{ {steps} pull() }}");
+    for steps in ["tie(a)", "tie_all() untie(a)"] {
+        assert_eq!(verdicts("pull", &policy(steps)), [Verdict::Proven], "{steps}");
+    }
+    let loosened = "tie(a) loosen(\"knot\") loosen(\"knot\")";
+    assert_eq!(verdicts("pull", &policy(loosened)), [Verdict::Deferred]);
+    let untied = format!("{DOMAIN}\n{}", policy("tie_all() untie(a) untie(b)"));
+    assert_eq!(session_codes(None, &untied), ["M0501"]);
+}
+
+/// A `restart` may break off the block of a `resume` of the same monitor, and then that block begins again.
+#[test]
+fn proofs_of_a_reaction_hold_where_another_one_has_broken_it_off() {
+    let prop = "fluent h(o: Object)\naction prop_up(o: Object)\n    needs f(o)\n    makes f(o)\n";
+    let policy = |whens: &str| {
+        format!(
+            "{prop}initially f(a), not g(a), not h(a)\n\
+             policy p {{ monitor {{ when g(a) then resume at most 2 {{ prop_up(a) }} {whens} }} \
+             during {{ wave() }} }}"
+        )
+    };
+    assert_eq!(verdicts("prop_up", &policy("")), [Verdict::Proven]);
+    let restarts = policy("when h(a) then restart at most 2");
+    assert_eq!(verdicts("prop_up", &restarts), [Verdict::Deferred]);
 }
