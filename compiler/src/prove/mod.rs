@@ -40,7 +40,7 @@ use crate::analysis::{Domain, Enclosing};
 use crate::declare::{Library, PrimitiveDef};
 use crate::environment::Environment;
 use crate::facts::{Atom, FactKey, FactStore, PathPartition, TruthSet, effort};
-use crate::ir::{Condition, Entity, Fluent, Measure, Program, StepId};
+use crate::ir::{Condition, Entity, Fluent, Measure, Program, StepId, Term};
 
 /// Maximal nesting of loops and parallel branches: each level is proved at least twice.
 pub const MAX_FIXPOINTS: usize = 8;
@@ -239,6 +239,46 @@ pub(crate) struct Watched {
     pub(crate) fluents: Vec<Fluent>,
     /// Entities whose distance is watched.
     pub(crate) near: Vec<Entity>,
+}
+
+/// Callback that finds the entity of a term.
+type Lookup<'l> = &'l mut dyn FnMut(&Term) -> Option<u16>;
+
+impl Watched {
+    /// Adds those of a condition.
+    fn add(&mut self, condition: &Condition, lookup: Lookup<'_>) {
+        match condition {
+            Condition::Fact(fact) => self.fluents.push(fact.fluent),
+            Condition::Compare(_, left, right) => {
+                self.add_term(left, lookup);
+                self.add_term(right, lookup);
+            }
+            Condition::Not(inner) => self.add(inner, lookup),
+            Condition::All(parts) | Condition::AnyOf(parts) => {
+                parts.iter().for_each(|part| self.add(part, lookup));
+            }
+            Condition::Literal(_)
+            | Condition::MonitoredMeasure(_)
+            | Condition::MonitoredFluent(_)
+            | Condition::Unknown => {}
+        }
+    }
+
+    fn add_term(&mut self, term: &Term, lookup: Lookup<'_>) {
+        match term {
+            Term::Measure(id, args) => {
+                self.measures.push(*id);
+                self.near.extend(args.iter().filter_map(lookup).map(Entity));
+            }
+            Term::Count(of) | Term::First(of) => self.add_term(of, lookup),
+            Term::Template(parts) => parts.iter().for_each(|(part, _)| self.add_term(part, lookup)),
+            Term::Arith(_, left, right) => {
+                self.add_term(left, lookup);
+                self.add_term(right, lookup);
+            }
+            _ => {}
+        }
+    }
 }
 
 /// The end of a policy, where steps may still be added.

@@ -13,7 +13,7 @@ use super::{Mode, Prover, Volatile, Watched};
 use crate::analysis::{Domain, Enclosing};
 use crate::declare::EffectDef;
 use crate::facts::{Cause, Delta, FactKey, TruthSet, effort};
-use crate::ir::{BlockSlot, Call, Condition, Entity, Fact, Reaction, Step, StepId, StepKind, Term, When};
+use crate::ir::{BlockSlot, Call, Condition, Fact, Reaction, Step, StepId, StepKind, When};
 
 impl<'a> Prover<'a> {
     /// Proves a monitor to a fixed point: its reactions may run in any state of the body, and again in what
@@ -109,7 +109,7 @@ impl<'a> Prover<'a> {
         let (measures, fluents, near) = (Vec::new(), Vec::new(), Vec::new());
         let mut watched = Watched { by, measures, fluents, near };
         for when in whens {
-            visit(&when.condition, &mut watched, &mut |term| self.argument(term, CallFrame::default()));
+            watched.add(&when.condition, &mut |term| self.argument(term, CallFrame::default()));
         }
         watched
     }
@@ -566,42 +566,5 @@ fn free_facts<'c>(condition: &'c Condition, (truth, is_known): (bool, bool), fre
         | Condition::MonitoredMeasure(_)
         | Condition::MonitoredFluent(_)
         | Condition::Unknown => {}
-    }
-}
-
-/// Callback that finds the entity of a term.
-type Lookup<'l> = &'l mut dyn FnMut(&Term) -> Option<u16>;
-
-fn visit(condition: &Condition, watched: &mut Watched, lookup: Lookup<'_>) {
-    match condition {
-        Condition::Fact(fact) => watched.fluents.push(fact.fluent),
-        Condition::Compare(_, left, right) => {
-            visit_term(left, watched, lookup);
-            visit_term(right, watched, lookup);
-        }
-        Condition::Not(inner) => visit(inner, watched, lookup),
-        Condition::All(parts) | Condition::AnyOf(parts) => {
-            parts.iter().for_each(|part| visit(part, watched, lookup));
-        }
-        Condition::Literal(_)
-        | Condition::MonitoredMeasure(_)
-        | Condition::MonitoredFluent(_)
-        | Condition::Unknown => {}
-    }
-}
-
-fn visit_term(term: &Term, watched: &mut Watched, lookup: Lookup<'_>) {
-    match term {
-        Term::Measure(id, args) => {
-            watched.measures.push(*id);
-            watched.near.extend(args.iter().filter_map(lookup).map(Entity));
-        }
-        Term::Count(of) | Term::First(of) => visit_term(of, watched, lookup),
-        Term::Template(parts) => parts.iter().for_each(|(part, _)| visit_term(part, watched, lookup)),
-        Term::Arith(_, left, right) => {
-            visit_term(left, watched, lookup);
-            visit_term(right, watched, lookup);
-        }
-        _ => {}
     }
 }
