@@ -106,14 +106,28 @@ impl Cause {
     /// The scene, the state, the card or `initially`.
     pub(crate) const START: Self = Self(2);
 
+    /// Mark of a step that saw the fact, which then lasts only so long.
+    const SEEN: u32 = 1 << 31;
+
     /// Step of the policy as a cause.
     pub(crate) fn step(id: StepId) -> Self {
-        Self(id.0.saturating_add(3))
+        Self(id.0.saturating_add(3).min(Self::SEEN - 1))
+    }
+
+    /// Step that saw the fact.
+    pub(crate) fn seen_by(id: StepId) -> Self {
+        Self(Self::step(id).0 | Self::SEEN)
     }
 
     /// The step, if a step is the cause.
     pub(crate) fn as_step(self) -> Option<StepId> {
-        self.0.checked_sub(3).map(StepId)
+        (self.0 & !Self::SEEN).checked_sub(3).map(StepId)
+    }
+
+    /// Cause at a join of paths: one that saw the fact wins, since the fact then lasts only so long.
+    fn join(self, other: Self) -> Self {
+        let lasts_less = other.0 & Self::SEEN > self.0 & Self::SEEN;
+        if lasts_less { other } else { self.or(other) }
     }
 
     pub(crate) fn is_some(self) -> bool {
@@ -152,9 +166,9 @@ impl TruthSet {
         if truth { Self::yes(cause) } else { Self::no(cause) }
     }
 
-    /// Union, as at a join of paths. The causes of `self` win.
+    /// Union, as at a join of paths. The causes of `self` win, but for those that saw the fact.
     pub(crate) fn join(self, other: Self) -> Self {
-        Self { yes: self.yes.or(other.yes), no: self.no.or(other.no), open: self.open.or(other.open) }
+        Self { yes: self.yes.join(other.yes), no: self.no.or(other.no), open: self.open.or(other.open) }
     }
 
     /// Returns whether both sets hold the same truth values, whatever their causes.

@@ -126,7 +126,7 @@ pub(super) fn apply(prover: &mut Prover<'_>, index: usize, call: &CandidateCall)
     }
     prover.make_stale(id, def, frame);
     prover.unsettle(&unsettles, cause);
-    prover.make(&makes, cause);
+    prover.make(&makes, if def.lasts.is_some() { Cause::seen_by(id) } else { cause });
     if let Some(lasts) = &def.lasts {
         let entities = lasts.entities.iter().filter_map(|term| prover.argument(term, frame));
         let entities = entities.map(crate::ir::Entity).collect();

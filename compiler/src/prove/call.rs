@@ -58,7 +58,7 @@ impl<'a> Prover<'a> {
         self.forget(result.filter(|entity| self.symbols.get(*entity).is_some()));
         call.binds.into_iter().for_each(|binding| self.forget_tests(binding));
         let armed = self.armed(id);
-        self.make(&makes, cause);
+        self.make(&makes, if def.lasts.is_some() { Cause::seen_by(id) } else { cause });
         self.stand(def, frame, cause);
         self.check_fired(&armed, id);
         self.buffers = (makes, unsettles);

@@ -274,7 +274,10 @@ impl Prover<'_> {
             let new = TruthSet::of(change.truth, cause);
             match change.sure {
                 Certainty::Always => self.write(change, cause, |_| new),
-                Certainty::Sometimes => self.write(change, cause, |old| old.join(new)),
+                // What held already holds by its own cause.
+                Certainty::Sometimes => {
+                    self.write(change, cause, |old| if old.same_set(new) { old } else { old.join(new) });
+                }
                 Certainty::Unknown => self.write(change, cause, |old| old.maybe(new, cause)),
                 Certainty::Misread => self.write(change, cause, |_| TruthSet::open(cause)),
             }

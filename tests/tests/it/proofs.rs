@@ -242,3 +242,24 @@ fn proofs_of_a_reaction_hold_where_another_one_has_broken_it_off() {
     let restarts = policy("when h(a) then restart at most 2");
     assert_eq!(verdicts("prop_up", &restarts), [Verdict::Deferred]);
 }
+
+/// Where paths meet, a fact that one of them only saw lasts no longer than what that one saw.
+#[test]
+fn proofs_of_what_one_path_saw_end_with_its_lifetime() {
+    let policy = |steps: &str| {
+        format!(
+            "perception see_a(what: Text) -> Object\n    makes f(a)\n    lasts until base\n    uses camera\n\
+             policy p {{ {steps} use(a) }}"
+        )
+    };
+    for steps in [
+        "if g(a) { make(a) } else { see_a(\"a\") } wave()",
+        "if g(a) { see_a(\"a\") } else { make(a) } wave()",
+        "see_a(\"a\") if g(a) { make(a) } wave()",
+    ] {
+        assert_eq!(verdicts("use", &policy(steps)), [Verdict::Deferred], "{steps}");
+    }
+    for steps in ["if g(a) { make(a) } else { see_a(\"a\") }", "see_a(\"a\") make(a) wave()"] {
+        assert_eq!(verdicts("use", &policy(steps)), [Verdict::Proven], "{steps}");
+    }
+}
