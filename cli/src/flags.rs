@@ -263,6 +263,12 @@ fn length_m(text: &str) -> Option<f64> {
 
 /// Reads a duration such as `90s`, `10 min` or `1h`; in seconds.
 pub(crate) fn duration(text: &str) -> Result<f64, String> {
+    let secs = time_of_run(text)?;
+    if secs > 0.0 { Ok(secs) } else { Err("a duration is longer than 0 s".to_owned()) }
+}
+
+/// Reads a time of a run, which may be 0; in seconds.
+pub(crate) fn time_of_run(text: &str) -> Result<f64, String> {
     let text = text.trim();
     let end = text.find(|letter: char| !letter.is_ascii_digit() && letter != '.').unwrap_or(text.len());
     let (number, unit) = text.split_at_checked(end).unwrap_or((text, ""));
@@ -270,7 +276,7 @@ pub(crate) fn duration(text: &str) -> Result<f64, String> {
     let unit =
         Unit::parse(unit.trim()).filter(|unit| unit.dimension() == Dimension::DURATION).ok_or_else(wrong)?;
     let secs = unit.to_si(number.parse().map_err(|_| wrong())?);
-    if secs.is_finite() && secs > 0.0 { Ok(secs) } else { Err("a duration is longer than 0 s".to_owned()) }
+    if secs.is_finite() { Ok(secs) } else { Err(wrong()) }
 }
 
 /// Live page of a run.

@@ -10,7 +10,7 @@ use motet_runtime::{RunControl, Time};
 
 use super::operator::OperatorInput;
 use crate::error::CliError;
-use crate::flags::duration;
+use crate::flags::time_of_run;
 use crate::interrupt::SLICE;
 use crate::output::{escape, note};
 use crate::run_view::SpokenControl;
@@ -145,7 +145,8 @@ impl FromStr for ScheduledRequest {
     fn from_str(text: &str) -> Result<Self, String> {
         let wrong = || "write a time and a request, such as `12s: bring me the apple instead`".to_owned();
         let (at, text) = text.split_once(':').ok_or_else(wrong)?;
-        let at = Time::from_secs(duration(at).map_err(|_| wrong())?);
+        let at =
+            Time::from_secs(time_of_run(at).map_err(|why| format!("`{at}` is no time: {why}; {}", wrong()))?);
         let text = text.trim();
         if text.is_empty() { Err(wrong()) } else { Ok(Self { at, text: text.to_owned() }) }
     }
@@ -160,6 +161,7 @@ mod tests {
     fn scheduled_request_has_a_time() {
         let request = ScheduledRequest { at: Time::from_secs(1.5), text: "stop: now".to_owned() };
         assert_eq!("1.5s: stop: now".parse(), Ok(request));
+        assert!("0s: wait".parse::<ScheduledRequest>().is_ok_and(|request| request.at == Time::ZERO));
         for wrong in ["", "stop", "12: stop", "12s:", "soon: stop", ": stop"] {
             assert!(wrong.parse::<ScheduledRequest>().is_err(), "{wrong}");
         }

@@ -217,7 +217,11 @@ impl Environment {
     /// Returns whether a text that begins like that may describe an entity. O(descriptions).
     pub(crate) fn begins_description(&self, begun: &str) -> bool {
         let wanted = normal(begun);
-        !begun.is_ascii() || self.descriptions.keys().any(|description| description.starts_with(&wanted))
+        // An article may be about to be complete, and then says nothing.
+        let is_article = ["an", "the"].iter().any(|article| article.starts_with(&wanted));
+        !begun.is_ascii()
+            || is_article
+            || self.descriptions.keys().any(|description| description.starts_with(&wanted))
     }
 
     /// A number of an entity of the scene, in SI units: `mass`, `width`, or a field of its own.

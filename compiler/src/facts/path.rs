@@ -46,17 +46,16 @@ impl Delta {
         Self { written: joined.collect() }
     }
 
-    /// Returns whether both paths leave the same sets of values, whatever their causes.
+    /// Returns whether both paths leave the same sets of values, which last as long.
     pub(crate) fn same_sets(&self, other: &Self, base: &FactStore<'_>) -> bool {
         let mut ranks = self.ranks().chain(other.ranks());
-        ranks.all(|rank| self.at(base, rank).same_set(other.at(base, rank)))
+        ranks.all(|rank| self.at(base, rank).lasts_as(other.at(base, rank)))
     }
 
-    /// Hashes the sets of values that the path leaves, without their causes.
+    /// Hashes the sets of values that the path leaves, and how long they last.
     pub(crate) fn fingerprint(&self, hasher: &mut impl Hasher) {
         for (rank, value) in &self.written {
-            let known = (value.yes.is_some(), value.no.is_some(), value.open.is_some());
-            (rank.0, known).hash(hasher);
+            (rank.0, value.known()).hash(hasher);
         }
         self.written.len().hash(hasher);
     }

@@ -108,10 +108,12 @@ impl Cause {
 
     /// Mark of a step that saw the fact, which then lasts only so long.
     const SEEN: u32 = 1 << 31;
+    /// Several steps that saw the fact, on paths that have met.
+    pub(crate) const SEEN_BY_SEVERAL: Self = Self(u32::MAX);
 
     /// Step of the policy as a cause.
     pub(crate) fn step(id: StepId) -> Self {
-        Self(id.0.saturating_add(3).min(Self::SEEN - 1))
+        Self(id.0.saturating_add(3).min(Self::SEEN - 2))
     }
 
     /// Step that saw the fact.
@@ -121,13 +123,21 @@ impl Cause {
 
     /// The step, if a step is the cause.
     pub(crate) fn as_step(self) -> Option<StepId> {
-        (self.0 & !Self::SEEN).checked_sub(3).map(StepId)
+        if self == Self::SEEN_BY_SEVERAL { None } else { (self.0 & !Self::SEEN).checked_sub(3).map(StepId) }
     }
 
-    /// Cause at a join of paths: one that saw the fact wins, since the fact then lasts only so long.
+    /// The cause, if the fact lasts only so long.
+    fn seen(self) -> Option<Self> {
+        (self.0 & Self::SEEN != 0).then_some(self)
+    }
+
+    /// Cause at a join of paths: the fact lasts no longer than what one of them saw.
     fn join(self, other: Self) -> Self {
-        let lasts_less = other.0 & Self::SEEN > self.0 & Self::SEEN;
-        if lasts_less { other } else { self.or(other) }
+        match (self.seen(), other.seen()) {
+            (Some(one), Some(two)) if one != two => Self::SEEN_BY_SEVERAL,
+            (None, Some(seen)) => seen,
+            (_, _) => self.or(other),
+        }
     }
 
     pub(crate) fn is_some(self) -> bool {
@@ -178,9 +188,19 @@ impl TruthSet {
             && self.open.is_some() == other.open.is_some()
     }
 
+    /// Returns whether both sets hold the same truth values, and for as long.
+    pub(crate) fn lasts_as(self, other: Self) -> bool {
+        self.same_set(other) && self.yes.seen() == other.yes.seen()
+    }
+
+    /// The truth values, and how long they last.
+    pub(super) fn known(self) -> (bool, bool, bool, Option<Cause>) {
+        (self.yes.is_some(), self.no.is_some(), self.open.is_some(), self.yes.seen())
+    }
+
     /// Value after a write of `new` that may have been about another fact: the same, or unobserved.
     pub(crate) fn maybe(self, new: Self, cause: Cause) -> Self {
-        if self.same_set(new) { self } else { Self::open(cause) }
+        if self.same_set(new) { self.join(new) } else { Self::open(cause) }
     }
 
     pub(crate) fn is_true(self) -> bool {

@@ -4,6 +4,7 @@
 use std::hash::{Hash, Hasher};
 
 use motet_syntax::Span;
+use motet_syntax::ast::PrimitiveKind;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::assume::Outcome;
@@ -15,8 +16,8 @@ use crate::analysis::{Domain, Enclosing, Exit, Loop, Round};
 use crate::declare::Library;
 use crate::facts::{Atom, Cause, Delta, TruthSet, effort, show};
 use crate::ir::{
-    BindingId, BlockSlot, Call, Catch, Condition, Failure, Program, StepId, StepKind, StepPosition, TIMEOUT,
-    When,
+    BindingId, BlockSlot, Call, Catch, Condition, Failure, Fluent, Program, StepId, StepKind, StepPosition,
+    TIMEOUT, When,
 };
 
 impl<'a> Domain<'a> for Prover<'a> {
@@ -229,6 +230,12 @@ impl<'a> Domain<'a> for Prover<'a> {
             let ((fluent, key), value) = (atom, TruthSet::open(Cause::step(id)));
             self.state.volatile.push(Volatile { fluent, key, value, when: None });
         }
+        // What a perception makes here a step of another branch may make stale at once.
+        for (fluent, key) in self.expired_beside(id, changes, index) {
+            self.control.disturbed.push((fluent, key));
+            let value = TruthSet::open(Cause::step(id));
+            self.state.volatile.push(Volatile { fluent, key, value, when: None });
+        }
     }
 
     fn end_branch(&mut self) {
@@ -240,6 +247,12 @@ impl<'a> Domain<'a> for Prover<'a> {
     fn compose(&mut self, id: StepId, changes: &[Vec<(Atom, TruthSet)>], paths: &[Delta]) {
         let joined = self.compose_effects(id, changes, paths);
         self.state.facts.replay(&joined);
+        for index in 0..changes.len() {
+            for (fluent, key) in self.expired_beside(id, changes, index) {
+                let value = self.state.facts.get(fluent, key).join(TruthSet::open(Cause::step(id)));
+                self.state.facts.set(fluent, key, value);
+            }
+        }
     }
 
     fn sequence(&mut self, id: StepId, body: &'a [StepId]) {
@@ -428,6 +441,38 @@ impl Prover<'_> {
             let value = self.read(fluent, key).join(open);
             self.state.facts.set(fluent, key, value);
         }
+    }
+
+    /// Facts that perceptions of a branch make and that a step of another branch ends, because it uses a
+    /// resource or moves something.
+    fn expired_beside(&self, id: StepId, changes: &[Vec<(Atom, TruthSet)>], index: usize) -> Vec<Atom> {
+        let Some(StepKind::Parallel { branches }) = self.program.step(id).map(|step| &step.kind) else {
+            return Vec::new();
+        };
+        let (mut used, mut moves, mut seen) = (0, false, Vec::new());
+        let mut left: Vec<(bool, StepId)> = Vec::new();
+        for (other, branch) in branches.iter().enumerate() {
+            left.extend(branch.iter().map(|step| (other == index, *step)));
+        }
+        while let Some((is_own, step)) = left.pop() {
+            effort::spend(1);
+            let Some(step) = self.program.step(step) else { continue };
+            left.extend(step.kind.blocks().into_iter().flatten().map(|step| (is_own, *step)));
+            let StepKind::Call(call) = &step.kind else { continue };
+            let Some(def) = self.library.primitive(call.primitive) else { continue };
+            if !is_own {
+                used |= def.uses;
+                moves |= def.form != PrimitiveKind::Perception
+                    && !(def.makes.is_empty() && def.unsettles.is_empty());
+            } else if let Some(lasts) = &def.lasts {
+                seen.push((lasts, def));
+            }
+        }
+        seen.retain(|(lasts, _)| lasts.resources & used != 0 || moves && !lasts.entities.is_empty());
+        let made =
+            |fluent: Fluent| seen.iter().any(|(_, def)| def.makes.iter().any(|it| it.fact.fluent == fluent));
+        let of_branch = changes.get(index).into_iter().flatten();
+        of_branch.map(|(atom, _)| *atom).filter(|(fluent, _)| made(*fluent)).collect()
     }
 
     /// Joins the effects of all branches. Branches that leave different values in a fact are an error.

@@ -274,10 +274,7 @@ impl Prover<'_> {
             let new = TruthSet::of(change.truth, cause);
             match change.sure {
                 Certainty::Always => self.write(change, cause, |_| new),
-                // What held already holds by its own cause.
-                Certainty::Sometimes => {
-                    self.write(change, cause, |old| if old.same_set(new) { old } else { old.join(new) });
-                }
+                Certainty::Sometimes => self.write(change, cause, |old| old.join(new)),
                 Certainty::Unknown => self.write(change, cause, |old| old.maybe(new, cause)),
                 Certainty::Misread => self.write(change, cause, |_| TruthSet::open(cause)),
             }
@@ -449,18 +446,27 @@ impl Prover<'_> {
         if self.state.lasting.is_empty() {
             return;
         }
-        let mut moved = None;
+        let (mut moved, mut any_ends) = (None, None);
         let mut stale: SmallVec<[_; 8]> = SmallVec::new();
         for fluent in self.library.perceived.iter().copied().chain([self.fresh]) {
             self.state.facts.written(fluent, |key, value| {
                 let source = if fluent == self.fresh { Some(pose_step(key)) } else { value.yes.as_step() };
                 let is_known = value.yes.is_some();
-                let Some(source) = source.filter(|source| is_known && *source != step) else { return };
-                let Some(lasting) = self.state.lasting.get(&source) else { return };
-                let used = lasting.resources & def.uses != 0;
-                let mut has_moved =
-                    |entity| moved.get_or_insert_with(|| self.moved(def, frame)).contains(entity);
-                if used || lasting.entities.iter().any(&mut has_moved) {
+                let mut ends = |of: &PerceptionLifetime| {
+                    let has_moved =
+                        |entity| moved.get_or_insert_with(|| self.moved(def, frame)).contains(entity);
+                    of.resources & def.uses != 0 || of.entities.iter().any(has_moved)
+                };
+                let is_over = if value.yes == Cause::SEEN_BY_SEVERAL {
+                    *any_ends.get_or_insert_with(|| {
+                        effort::spend(self.state.lasting.len());
+                        self.state.lasting.iter().any(|(by, of)| *by != step && ends(of))
+                    })
+                } else {
+                    let source = source.filter(|source| is_known && *source != step);
+                    source.and_then(|source| self.state.lasting.get(&source)).is_some_and(ends)
+                };
+                if is_over {
                     stale.push((fluent, key, value));
                 }
             });

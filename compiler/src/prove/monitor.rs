@@ -221,7 +221,7 @@ impl<'a> Prover<'a> {
                 match rows.find(|row| row.fluent == fluent && row.key == key && row.when == Some(when.span)) {
                     Some(row) => {
                         let joined = row.value.join(value);
-                        grown |= !joined.same_set(row.value);
+                        grown |= !joined.lasts_as(row.value);
                         row.value = joined;
                     }
                     None => {
@@ -471,6 +471,10 @@ impl<'a> Prover<'a> {
             if let Condition::Fact(_) = part {
                 let known = self.evaluate(part, CallFrame::default());
                 makers.extend(known.yes.as_step().into_iter().chain(known.no.as_step()));
+                if known.yes == Cause::SEEN_BY_SEVERAL {
+                    makers.extend(self.state.lasting.keys());
+                    makers.sort_unstable();
+                }
             }
         }
         for maker in makers {

@@ -243,23 +243,35 @@ fn proofs_of_a_reaction_hold_where_another_one_has_broken_it_off() {
     assert_eq!(verdicts("prop_up", &restarts), [Verdict::Deferred]);
 }
 
-/// Where paths meet, a fact that one of them only saw lasts no longer than what that one saw.
+/// A fact that was only seen ends with its lifetime, also where paths, rounds or branches meet.
 #[test]
-fn proofs_of_what_one_path_saw_end_with_its_lifetime() {
+fn proofs_of_what_was_seen_end_with_its_lifetime() {
     let policy = |steps: &str| {
-        format!(
-            "perception see_a(what: Text) -> Object\n    makes f(a)\n    lasts until base\n    uses camera\n\
-             policy p {{ {steps} use(a) }}"
-        )
+        let seen =
+            "perception see_a(what: Text) -> Object\n    makes f(a)\n    lasts until base\n    uses camera\n";
+        let heard = seen.replace("see_a", "hear_a").replace("base", "voice");
+        format!("{seen}{heard}policy p {{ {steps} }}")
     };
     for steps in [
-        "if g(a) { make(a) } else { see_a(\"a\") } wave()",
-        "if g(a) { see_a(\"a\") } else { make(a) } wave()",
-        "see_a(\"a\") if g(a) { make(a) } wave()",
+        "if g(a) { make(a) } else { see_a(\"a\") } wave() use(a)",
+        "if g(a) { see_a(\"a\") } else { make(a) } wave() use(a)",
+        "see_a(\"a\") if g(a) { make(a) } wave() use(a)",
+        "if g(a) { see_a(\"a\") } else { hear_a(\"a\") } wave() use(a)",
+        "if g(a) { see_a(\"a\") } else { hear_a(\"a\") } pass() use(a)",
+        "if g(a) { hear_a(\"a\") } else { see_a(\"a\") } wave() use(a)",
+        "make(a) repeat 3 { wave() use(a) see_a(\"a\") }",
+        "parallel { { see_a(\"a\") } { pass() wave() } } use(a)",
+        "parallel { { see_a(\"a\") use(a) } { pass() wave() } }",
+        "parallel { { wave() } { if g(a) { see_a(\"a\") use(a) } } }",
     ] {
         assert_eq!(verdicts("use", &policy(steps)), [Verdict::Deferred], "{steps}");
     }
-    for steps in ["if g(a) { make(a) } else { see_a(\"a\") }", "see_a(\"a\") make(a) wave()"] {
+    for steps in [
+        "if g(a) { make(a) } else { see_a(\"a\") } use(a)",
+        "see_a(\"a\") make(a) wave() use(a)",
+        "make(a) repeat 3 { pass() use(a) see_a(\"a\") }",
+        "parallel { { see_a(\"a\") use(a) } { pass() pass() } }",
+    ] {
         assert_eq!(verdicts("use", &policy(steps)), [Verdict::Proven], "{steps}");
     }
 }

@@ -3,10 +3,11 @@
 
 use super::protocol::{
     MAX_BEFORE_ANSWER, MAX_BREACHES, MAX_ERROR_LINE_BYTES, MAX_ERROR_LINES_A_SECOND, MAX_FACT_BYTES,
-    MAX_LINE_BYTES, MAX_LOOK_BYTES, MAX_WAITING,
+    MAX_LAST_LINES, MAX_LINE_BYTES, MAX_LOOK_BYTES, MAX_WAITING,
 };
 use super::rate::LineRate;
 use motet_runtime::Time;
+use std::collections::VecDeque;
 use std::fmt;
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::net::{Shutdown, TcpStream};
@@ -252,26 +253,35 @@ fn wait_for(due: Instant, mut is_true: impl FnMut() -> bool) -> bool {
 }
 
 /// Passes the standard error of a driver on, line by line. A line that is too long is cut in two, and what
-/// comes too fast is left out: a flood slows nobody down.
+/// comes too fast is left out, but for the last lines: they tell why a driver has ended.
 fn pass_errors(mut reader: impl BufRead, take: ErrorOutput) {
-    let mut rate = LineRate::default();
-    let mut bytes = Vec::new();
-    let mut left_out: u64 = 0;
-    while let Ok(read @ 1..) = reader.by_ref().take(MAX_ERROR_LINE_BYTES).read_until(b'\n', &mut bytes) {
-        if !rate.exceeds(MAX_ERROR_LINES_A_SECOND, Instant::now()) {
-            if left_out > 0 {
-                take(&format!("… ({left_out} bytes left out)"));
-                left_out = 0;
-            }
-            take(String::from_utf8_lossy(&bytes).trim_end_matches(['\n', '\r']));
-        } else {
-            left_out += read as u64;
+    let (mut rate, mut bytes) = (LineRate::default(), Vec::new());
+    let (mut kept, mut left_out) = (VecDeque::new(), 0);
+    let catch_up = |kept: &mut VecDeque<Vec<u8>>, left_out: &mut usize| {
+        if std::mem::take(left_out) > 0 {
+            take("…");
         }
-        bytes.clear();
+        kept.drain(..).for_each(|line| take(&shown(&line)));
+    };
+    while let Ok(1..) = reader.by_ref().take(MAX_ERROR_LINE_BYTES).read_until(b'\n', &mut bytes) {
+        let line = std::mem::take(&mut bytes);
+        if rate.exceeds(MAX_ERROR_LINES_A_SECOND, Instant::now()) {
+            kept.push_back(line);
+            if kept.len() > MAX_LAST_LINES {
+                kept.pop_front();
+                left_out += 1;
+            }
+        } else {
+            catch_up(&mut kept, &mut left_out);
+            take(&shown(&line));
+        }
     }
-    if left_out > 0 {
-        take(&format!("… ({left_out} bytes left out)"));
-    }
+    catch_up(&mut kept, &mut left_out);
+}
+
+/// A line without its end.
+fn shown(line: &[u8]) -> String {
+    String::from_utf8_lossy(line).trim_end_matches(['\n', '\r']).to_owned()
 }
 
 /// Reads lines until there are no more, or one is wrong.

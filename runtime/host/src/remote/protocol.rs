@@ -465,6 +465,8 @@ pub(crate) const MAX_LINES_A_SECOND: u32 = 20_000;
 pub(crate) const MAX_ERROR_LINE_BYTES: u64 = 4096;
 /// The most lines of a driver's standard error in a second of the wall clock that are passed on.
 pub(crate) const MAX_ERROR_LINES_A_SECOND: u32 = 1_000;
+/// Number of the last of its lines that are passed on though there were more.
+pub(crate) const MAX_LAST_LINES: usize = 40;
 /// The most feedback of a driver in a second of the wall clock that is shown and recorded.
 pub(crate) const MAX_FEEDBACK_A_SECOND: u32 = 200;
 /// The most facts that a driver may report in a second of the wall clock without being asked to watch them.

@@ -5,8 +5,8 @@ use motet_requests::{
     Intent, Polarity, ReportedLocation, RequestError, RoomQuestion, Topic, polarity, replaces, seeks,
 };
 use motet_robots::scene::{Entity, Scene};
-use motet_runtime::{Driver, RunEnd, Time};
-use motet_stdlib::lang::{entities, failures, kinds, primitives};
+use motet_runtime::{Driver, RunEnd, Time, Truth};
+use motet_stdlib::lang::{entities, failures, fluents, kinds, primitives};
 use motet_syntax::print;
 use smol_str::SmolStr;
 
@@ -343,11 +343,17 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
         Some(PlannedRequest { understood, planned: *planned })
     }
 
-    /// Policy that looks for a thing that nobody knows, at one surface after the other. `None` if it does not
-    /// pass the check.
+    /// Policy that looks for a thing that nobody knows, at one surface after the other and then into what is
+    /// not known to be closed. `None` if it does not pass the check.
     fn seeking(&self, name: &str, scene: &Scene) -> Option<PlannedRequest> {
-        let is_place = |entity: &&Entity| entity.kind == kinds::SURFACE && entity.pose.is_some();
-        let around = scene.entities.values().filter(is_place).take(MAX_PLACES);
+        let is_open = |entity: &&Entity| {
+            let told = self.talk.known.told(fluents::OPEN, &entity.id);
+            entity.kind == kinds::CONTAINER
+                && told.map_or(entity.open != Some(false), |told| told == Truth::True)
+        };
+        let places = || scene.entities.values().filter(|entity| entity.pose.is_some());
+        let surfaces = places().filter(|entity| entity.kind == kinds::SURFACE);
+        let around = surfaces.take(MAX_PLACES).chain(places().filter(is_open).take(MAX_PLACES / 2));
         let around: Vec<String> = around.map(|place| print::identifier(&place.id).to_string()).collect();
         let robot = print::identifier(&self.talk.setting.robot.name);
         let (search, what) = (primitives::SEARCH, quoted(name));
