@@ -11,7 +11,8 @@ impl FactStore<'_> {
     pub(crate) fn delta(&self, mark: usize) -> Delta {
         let known = |rank: Rank| {
             let (fluent, key) = rank.atom();
-            (rank, self.get(fluent, key))
+            // What was forgotten of a name is unknown, also in a closed world.
+            (rank, self.get_joined(fluent, key))
         };
         Delta { written: self.ranks(mark).into_iter().map(known).collect() }
     }

@@ -275,3 +275,13 @@ fn proofs_of_what_was_seen_end_with_its_lifetime() {
         assert_eq!(verdicts("use", &policy(steps)), [Verdict::Proven], "{steps}");
     }
 }
+
+/// What was known of a name is forgotten where it is bound anew, also in an inner loop of a closed world.
+#[test]
+fn proofs_forget_what_was_known_of_a_name_that_is_bound_anew() {
+    let policy = "closed world\nentity c: Object\naction stir()\n    unsettles f(c)\n\
+                  policy p { stir() \
+                  repeat 2 { repeat 1 { let m = choose(\"which?\", [a, c]) } } until f(m) \
+                  use(c) }";
+    assert_eq!(verdicts("use", policy), [Verdict::Deferred]);
+}
