@@ -209,7 +209,7 @@ fn proofs_from_what_is_said_of_all_are_told_to_the_run() {
     assert!(matches!(refused, Some(SwapRefusal::Start { .. })), "{refused:?}");
 }
 
-/// That some fact of a pattern holds is asked of each pattern below it, which may have nothing left either.
+/// A need of some fact of a pattern looks below each narrower pattern, which may have nothing left either.
 #[test]
 fn proofs_that_some_pair_has_it_look_below_each_pattern() {
     let rope = "entity b: Object\nfluent tied(o: Object, p: Object)\n\
@@ -276,7 +276,7 @@ fn proofs_of_what_was_seen_end_with_its_lifetime() {
     }
 }
 
-/// What was known of a name is forgotten where it is bound anew, also in an inner loop of a closed world.
+/// Facts of a name are forgotten where the name is bound anew, also in an inner loop of a closed world.
 #[test]
 fn proofs_forget_what_was_known_of_a_name_that_is_bound_anew() {
     let policy = "closed world\nentity c: Object\naction stir()\n    unsettles f(c)\n\
