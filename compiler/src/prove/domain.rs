@@ -16,8 +16,8 @@ use crate::analysis::{Domain, Enclosing, Exit, Loop, Round};
 use crate::declare::Library;
 use crate::facts::{Atom, Cause, Delta, TruthSet, effort, show};
 use crate::ir::{
-    BindingId, BlockSlot, Call, Catch, Condition, Failure, Fluent, Program, StepId, StepKind, StepPosition,
-    TIMEOUT, When,
+    BindingId, BlockSlot, Call, Catch, Condition, Failure, Program, StepId, StepKind, StepPosition, TIMEOUT,
+    When,
 };
 
 impl<'a> Domain<'a> for Prover<'a> {
@@ -446,9 +446,15 @@ impl Prover<'_> {
     /// Facts that perceptions of a branch make and that a step of another branch ends, because it uses a
     /// resource or moves something.
     fn expired_beside(&self, id: StepId, changes: &[Vec<(Atom, TruthSet)>], index: usize) -> Vec<Atom> {
+        let of_branch = changes.get(index).into_iter().flatten().map(|(atom, _)| *atom);
+        let mut atoms: Vec<Atom> =
+            of_branch.filter(|(fluent, _)| self.library.perceived.contains(fluent)).collect();
         let Some(StepKind::Parallel { branches }) = self.program.step(id).map(|step| &step.kind) else {
             return Vec::new();
         };
+        if atoms.is_empty() {
+            return atoms;
+        }
         let (mut used, mut moves, mut seen) = (0, false, Vec::new());
         let mut left: Vec<(bool, StepId)> = Vec::new();
         for (other, branch) in branches.iter().enumerate() {
@@ -469,10 +475,9 @@ impl Prover<'_> {
             }
         }
         seen.retain(|(lasts, _)| lasts.resources & used != 0 || moves && !lasts.entities.is_empty());
-        let made =
-            |fluent: Fluent| seen.iter().any(|(_, def)| def.makes.iter().any(|it| it.fact.fluent == fluent));
-        let of_branch = changes.get(index).into_iter().flatten();
-        of_branch.map(|(atom, _)| *atom).filter(|(fluent, _)| made(*fluent)).collect()
+        let made = |fluent| seen.iter().any(|(_, def)| def.makes.iter().any(|it| it.fact.fluent == fluent));
+        atoms.retain(|(fluent, _)| made(*fluent));
+        atoms
     }
 
     /// Joins the effects of all branches. Branches that leave different values in a fact are an error.

@@ -530,10 +530,7 @@ impl Machine {
             return false;
         }
         // A text that describes no entity is as good as any other.
-        let begun = self.written(state.pos).and_then(|(start, len)| {
-            let bytes = self.bytes.get(start as usize..start.saturating_add(len) as usize);
-            bytes.and_then(|bytes| std::str::from_utf8(bytes).ok())
-        });
+        let begun = self.written(state.pos).and_then(|(start, len)| self.spelling(start, len));
         compares || begun.is_none_or(|begun| self.context.session.may_describe(begun))
     }
 

@@ -283,12 +283,16 @@ impl Machine {
         })
     }
 
+    /// Bytes of the policy as text.
+    pub(crate) fn spelling(&self, start: u32, len: u32) -> Option<&str> {
+        let bytes = self.bytes.get(start as usize..start.saturating_add(len) as usize)?;
+        std::str::from_utf8(bytes).ok()
+    }
+
     /// A text, or [`Event::AnyText`] if it describes no entity and so is as good as any other.
     pub(crate) fn plain_text(&self, text: Event) -> Event {
         let Event::Text(start, len) = text else { return text };
-        let bytes = self.bytes.get(start as usize..start.saturating_add(len) as usize);
-        let written = bytes.and_then(|bytes| std::str::from_utf8(bytes).ok());
-        match written {
+        match self.spelling(start, len) {
             Some(written) if self.context.session.describes(written) => text,
             _ => Event::AnyText,
         }
@@ -363,22 +367,18 @@ impl Machine {
             Argument::List(_) => return Some(ArgumentValue::unknown()),
             Argument::One(event) => event,
         };
-        let text = |start: u32, len: u32| {
-            let bytes = self.bytes.get(start as usize..start.saturating_add(len) as usize)?;
-            std::str::from_utf8(bytes).ok()
-        };
         Some(match event {
             Event::Word(..) => meaning(&self.context.automaton, event)?.value(),
             Event::Bound(id) | Event::First(id) => {
                 let name = *self.arenas.name(id)?;
-                let name = smol_str::SmolStr::new(text(name.start, name.len)?);
+                let name = smol_str::SmolStr::new(self.spelling(name.start, name.len)?);
                 let Some((draft, _)) = self.place(site.event) else {
                     return is_used_up().then(ArgumentValue::unknown);
                 };
                 let value = draft.binding(&name)?;
                 if matches!(event, Event::First(_)) { value.first() } else { value }
             }
-            Event::Text(start, len) => ArgumentValue::text(text(start, len)?),
+            Event::Text(start, len) => ArgumentValue::text(self.spelling(start, len)?),
             _ => ArgumentValue::unknown(),
         })
     }
