@@ -106,6 +106,12 @@ impl Geometry {
         }
     }
 
+    /// The same robot in the same scene, where the world at the start is unknown for a reason.
+    #[must_use]
+    pub fn astray(&self, why: &str) -> Self {
+        Self { start: Err(why.into()), ..self.elsewhere(&self.scene) }
+    }
+
     /// The geometry and the world in which the hand holds its thing as it felt, and things stand where they
     /// were seen. The geometry is a new one only for things that the scene lacks or that it has on another
     /// support.
@@ -328,6 +334,41 @@ impl Geometry {
             memo.after.insert(key, world.clone());
         }
         world
+    }
+
+    /// World after a motion that was found, but for the place of the robot; `None` if it is unknown.
+    pub(super) fn outcome(
+        &self,
+        at: &Fingerprinted,
+        change: SceneChange,
+        motion: &MotionWitness,
+    ) -> Option<Arc<Fingerprinted>> {
+        let room = self.room(&at.world);
+        let world = match change {
+            SceneChange::Taken => room.taken(motion),
+            SceneChange::Put => room.put_down(motion),
+            SceneChange::Travelled => room.travelled(motion),
+            SceneChange::Gone | SceneChange::Given => None,
+        };
+        world.map(|world| Arc::new(fingerprinted(world)))
+    }
+
+    /// The geometry and the world in which nobody knows exactly where a thing is, which was near its place,
+    /// and which the hand does not hold.
+    pub(super) fn without(&self, at: &Fingerprinted, id: &SmolStr) -> (Arc<Self>, Arc<Fingerprinted>) {
+        let (mut scene, mut world) = (self.scene.clone(), at.world.clone());
+        let mut guess = None;
+        if let Some(thing) = scene.entities.get_mut(id) {
+            guess = at.world.pose(thing).map(|pose| {
+                let (roll, pitch, yaw) = pose.rotation.euler_angles();
+                Placement { xyz: pose.translation.vector.into(), rpy: [roll, pitch, yaw] }
+            });
+            (thing.pose, thing.on, thing.inside) = (None, None, None);
+        }
+        world.moved.remove(id);
+        world.held.take_if(|(held, _)| held == id);
+        let geometry = self.elsewhere(&scene).with_unplaced(vec![(id.clone(), guess)]);
+        (Arc::new(geometry), Arc::new(fingerprinted(world)))
     }
 
     /// Search budget of a motion.

@@ -28,8 +28,10 @@ pub struct WorldTracker {
     geometry: Arc<Geometry>,
     /// The world, or the reason why it is unknown.
     at: Result<Arc<Fingerprinted>, SmolStr>,
-    /// The world before a call that moved only the robot and stopped somewhere, until that place is known.
+    /// The world but for the place of the robot, until that is known.
     stranded: Option<Arc<Fingerprinted>>,
+    /// Thing that the hand may hold or not since a call broke off, until that is known.
+    loose: Option<SmolStr>,
     /// True if an observation contradicts the world since something began to move.
     is_doubted: bool,
     /// Number of active calls that move the robot or a thing.
@@ -78,6 +80,7 @@ impl WorldTracker {
             geometry,
             at,
             stranded: None,
+            loose: None,
             is_doubted: false,
             moving: 0,
             seen: Vec::new(),
@@ -112,7 +115,8 @@ impl WorldTracker {
             MotionAnswer::Feasible(motion) => {
                 let machine = self.geometry.machine();
                 let witness = Box::new(graph_witness(machine, &at.world, motion, manner));
-                let end = after(&self.library, &self.geometry, at, ExecutedCall { def, args, result: None });
+                let call = ExecutedCall { def, args, result: None };
+                let end = after(&self.library, &self.geometry, at, call);
                 let leaves =
                     end.ok().map(|end| Box::new(leaves(machine, &witness, motion, &end.world.robot)));
                 Forecast::Feasible { witness, leaves }
@@ -145,7 +149,13 @@ impl WorldTracker {
             self.stranded = self.stranded.take().filter(|_| moves_robot_only(&self.library, def));
             return;
         };
-        self.at = after(&self.library, &self.geometry, at, ExecutedCall { def, args, result });
+        match after(&self.library, &self.geometry, at, ExecutedCall { def, args, result }) {
+            Ok(at) => self.at = Ok(at),
+            Err(lost) => {
+                self.lose(&lost.why);
+                self.stranded = lost.stranded;
+            }
+        }
         self.take_in();
     }
 
@@ -156,24 +166,53 @@ impl WorldTracker {
     }
 
     /// Records that a call failed or was interrupted.
-    pub fn stopped(&mut self, primitive: &str) {
+    pub fn stopped(&mut self, primitive: &str, args: &[(SmolStr, Value)]) {
         self.over(primitive);
-        if self.is_moving(primitive) {
-            let before = self.at.clone().ok().or_else(|| self.stranded.take()).filter(|_| !self.is_doubted);
-            self.lose(&format!("where `{primitive}` stopped is not known"));
-            let def = primitive_of(&self.library, primitive);
-            self.stranded = before.filter(|_| def.is_some_and(|def| moves_robot_only(&self.library, def)));
+        if !self.is_moving(primitive) {
+            return;
+        }
+        let before = self.at.clone().ok().or_else(|| self.stranded.take()).filter(|_| !self.is_doubted);
+        let loose = self.loose.take();
+        self.lose(&format!("where `{primitive}` stopped is not known"));
+        let Some(def) = primitive_of(&self.library, primitive) else { return };
+        if moves_robot_only(&self.library, def) {
+            (self.stranded, self.loose) = (before, loose);
+        } else if let Some((MotionKind::Reach | MotionKind::ReachAt | MotionKind::Put, terms)) = &def.motion {
+            let call = ExecutedCall { def, args, result: None };
+            self.loose = terms.first().and_then(|term| named(&self.library, term, call));
+            self.stranded = before.filter(|_| self.loose.is_some() && loose.is_none());
         }
     }
 
     /// Takes in where the robot stands: base pose x, y in m and yaw in rad in the frame `map`, and positions
-    /// of joints by name, in rad or m. Behind a call that moved only the robot and was interrupted or failed,
-    /// motions are found from there, unless a joint is beyond its limits; otherwise nothing changes.
+    /// of joints by name, in rad or m. Behind a call that broke off, or that ended where no way back was
+    /// found, motions are found from there, unless a joint is beyond its limits; otherwise nothing changes.
     pub fn stands(&mut self, base: [f64; 3], joints: &BTreeMap<SmolStr, f64>) {
-        let Some(before) = self.stranded.take_if(|_| self.moving == 0) else { return };
+        if self.moving > 0 || self.loose.is_some() {
+            return;
+        }
+        let Some(before) = self.stranded.take() else { return };
         if let Some(at) = self.geometry.standing(&before, base, joints) {
             self.at = Ok(at);
             self.take_in();
+        }
+    }
+
+    /// Records that a hand is free. Behind a grasp that broke off, the thing then stands near its place.
+    pub fn is_free(&mut self) {
+        let hand = self.library.lang_items.hand.and_then(|hand| self.library.enums.get(hand.index()));
+        if hand.is_some_and(|hand| hand.cases.len() == 1) {
+            self.is_empty();
+        }
+    }
+
+    /// Records that all hands are empty.
+    pub fn is_empty(&mut self) {
+        if let Some(loose) = self.loose.take_if(|_| self.moving == 0)
+            && let Some(before) = self.stranded.take()
+        {
+            let (geometry, before) = self.geometry.without(&before, &loose);
+            (self.geometry, self.stranded) = (geometry, Some(before));
         }
     }
 
@@ -205,6 +244,12 @@ impl WorldTracker {
     /// Records an observation of `holding` or `open`. If it contradicts the tracked world, the world is
     /// unknown.
     pub fn observed(&mut self, fluent: &str, entity: &str, holds: bool) {
+        if fluent == lang::fluents::HOLDING && self.loose.as_deref() == Some(entity) {
+            if !holds {
+                self.is_empty();
+            }
+            return;
+        }
         let Some(at) = self.at.as_ref().ok().or(self.stranded.as_ref()) else { return };
         let id = self.library.names.fluents.get(fluent).copied();
         let here = id.and_then(|id| self.geometry.holds(&self.library, &at.world, id, entity));
@@ -225,7 +270,7 @@ impl WorldTracker {
     }
 
     fn lose(&mut self, why: &str) {
-        self.stranded = None;
+        (self.stranded, self.loose) = (None, None);
         if self.at.is_ok() {
             self.at = Err(why.into());
         }
@@ -250,22 +295,27 @@ impl WorldTracker {
     }
 }
 
+/// Reason for which the world after a call is not known, and that world but for the place of the robot, if
+/// only this is unknown.
+struct Lost {
+    why: SmolStr,
+    stranded: Option<Arc<Fingerprinted>>,
+}
+
 /// World after a call that succeeded.
 fn after(
     library: &Library,
     geometry: &Geometry,
     at: &Arc<Fingerprinted>,
     call: ExecutedCall<'_>,
-) -> Result<Arc<Fingerprinted>, SmolStr> {
+) -> Result<Arc<Fingerprinted>, Lost> {
     let def = call.def;
     let Some((motion, terms)) = &def.motion else {
-        return if moves_blindly(library, def) {
-            Err(format_smolstr!("the positions of things after `{}` are unknown", def.name))
-        } else {
-            Ok(Arc::clone(at))
-        };
+        let why = format_smolstr!("the positions of things after `{}` are unknown", def.name);
+        let is_blind = moves_blindly(library, def);
+        return if is_blind { Err(Lost { why, stranded: None }) } else { Ok(Arc::clone(at)) };
     };
-    let lost = || format_smolstr!("the outcome of `{}` is unknown", def.name);
+    let lost = || Lost { why: format_smolstr!("the outcome of `{}` is unknown", def.name), stranded: None };
     let args = terms.iter().map(|term| term_arg(library, term, call)).collect::<Option<Vec<_>>>();
     let query = motion_query(*motion, &args.ok_or_else(lost)?, side(call.args));
     let change = match motion_effect(library, def, &query) {
@@ -273,7 +323,13 @@ fn after(
         MotionEffect::Unknown => return Err(lost()),
         MotionEffect::Changed(change) => change,
     };
-    let next = step(geometry, at, &query, change).ok_or_else(lost)?;
+    let step = |at: &Arc<Fingerprinted>, query: &MotionQuery, change| {
+        let answer = geometry.answer(at, query);
+        let MotionAnswer::Feasible(motion) = &*answer else { return Err(lost()) };
+        let next = geometry.after(at, query, change, motion);
+        next.ok_or_else(|| Lost { stranded: geometry.outcome(at, change, motion), ..lost() })
+    };
+    let next = step(at, &query, change)?;
     // A motion of the base may go on to where the robot serves what it found.
     let MotionQuery::GoTo(target) = &query else { return Ok(next) };
     let Some(effect) = makes(library.lang_items.at, def, true) else { return Ok(next) };
@@ -285,19 +341,7 @@ fn after(
     if place == *target {
         return Ok(next);
     }
-    step(geometry, &next, &MotionQuery::GoTo(place), SceneChange::Gone).ok_or_else(lost)
-}
-
-fn step(
-    geometry: &Geometry,
-    at: &Arc<Fingerprinted>,
-    query: &MotionQuery,
-    change: SceneChange,
-) -> Option<Arc<Fingerprinted>> {
-    match &*geometry.answer(at, query) {
-        MotionAnswer::Feasible(motion) => geometry.after(at, query, change, motion),
-        MotionAnswer::Infeasible(_) | MotionAnswer::Unknown(_) => None,
-    }
+    step(&next, &MotionQuery::GoTo(place), SceneChange::Gone)
 }
 
 fn primitive_of<'l>(library: &'l Library, name: &str) -> Option<&'l PrimitiveDef> {

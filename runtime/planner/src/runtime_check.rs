@@ -12,7 +12,7 @@ use motet_runtime::{
     Answer, CheckId, Command, DeferredMotion, DriverEvent, Effect, Event, GoalId, Moved, Outcome, Pattern,
     Query, Time, Verification, Verifier,
 };
-use motet_stdlib::lang;
+use motet_stdlib::lang::{self, fluents};
 
 /// Time limit of the engine for a verdict: longer than any search within its budget.
 pub const WITHIN: Time = Time::from_nanos(10_000_000_000);
@@ -193,8 +193,9 @@ impl RunTracker {
                 match outcome {
                     Outcome::Success(value) => {
                         self.course.succeeded(&command.primitive, &command.args, value.as_ref());
+                        self.stand(now);
                     }
-                    Outcome::Failure(_) | Outcome::Interrupted => self.stopped(now, &command.primitive),
+                    Outcome::Failure(_) | Outcome::Interrupted => self.stopped(now, &command),
                 }
             }
             DriverEvent::Refused { goal, .. } => {
@@ -204,13 +205,19 @@ impl RunTracker {
             }
             DriverEvent::Stopped { goal } => {
                 if let Some(command) = self.live.remove(goal) {
-                    self.stopped(now, &command.primitive);
+                    self.stopped(now, &command);
                 }
             }
             DriverEvent::Observed { query: Query::Fact { fluent, args }, answer: Answer::Truth(holds) } => {
-                if let [Pattern::Is(Value::Entity(entity))] = args.as_slice() {
-                    self.course.observed(fluent, entity, *holds);
+                match args.as_slice() {
+                    [Pattern::Is(Value::Entity(entity))] => self.course.observed(fluent, entity, *holds),
+                    [Pattern::Any] if fluent == fluents::HOLDING && !holds => self.course.is_empty(),
+                    [Pattern::Is(Value::Case(_))] if fluent == fluents::FREE && *holds => {
+                        self.course.is_free();
+                    }
+                    _ => {}
                 }
+                self.stand(now);
             }
             DriverEvent::Observed { query, answer: Answer::Value(value) } => {
                 grip(query, value).into_iter().for_each(|grip| self.course.felt(grip));
@@ -223,8 +230,13 @@ impl RunTracker {
         }
     }
 
-    fn stopped(&mut self, now: Time, primitive: &str) {
-        self.course.stopped(primitive);
+    fn stopped(&mut self, now: Time, command: &Command) {
+        self.course.stopped(&command.primitive, &command.args);
+        self.stand(now);
+    }
+
+    /// Takes in where the robot stands, if that was told lately.
+    fn stand(&mut self, now: Time) {
         if let Some(stood) = self.stood.as_ref().filter(|stood| now.since(stood.at) <= RECENT) {
             self.course.stands(stood.base, &stood.joints);
         }
@@ -234,7 +246,7 @@ impl RunTracker {
         let name = command.primitive.clone();
         // What an updated goal did before was interrupted.
         if let Some(before) = self.live.insert(goal, command) {
-            self.course.stopped(&before.primitive);
+            self.course.stopped(&before.primitive, &before.args);
         }
         self.course.began(&name);
     }

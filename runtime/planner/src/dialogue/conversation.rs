@@ -172,12 +172,14 @@ impl<'a> Conversation<'a> {
         if known.is_empty() {
             return session.with_geometry(Arc::clone(geometry));
         }
-        match base.and_then(|base| known.placed(&self.setting.scene, base)) {
-            Some((placed, unplaced)) => {
-                session.with_geometry(Arc::new(geometry.elsewhere(&placed).with_unplaced(unplaced)))
-            }
-            None => session,
-        }
+        // Before the first run the robot stands where the scene says.
+        let base = base.or_else(|| (self.runs.1 == 0).then_some(self.setting.scene.robot.base));
+        let geometry = match base.map(|base| known.placed(&self.setting.scene, base)) {
+            Some(Some((placed, unplaced))) => geometry.elsewhere(&placed).with_unplaced(unplaced),
+            Some(None) => geometry.astray("it is not known which doors are open"),
+            None => geometry.astray("the driver does not tell where the robot stands"),
+        };
+        session.with_geometry(Arc::new(geometry))
     }
 
     /// Session of the library in the scene of the setup.

@@ -309,7 +309,7 @@ fn tracker_finds_motions_again_once_it_is_told_where_the_robot_stands() {
     for primitive in ["go", "search"] {
         tracker.began(primitive);
         tracker.stands([9.0; 3], &[].into());
-        tracker.stopped(primitive);
+        tracker.stopped(primitive, &[]);
         assert!(matches!(motion(&tracker), Forecast::Unknown { .. }), "{primitive}");
         tracker.stands(base, &[("arm_lift_joint".into(), 0.05)].into());
         let Forecast::Feasible { witness, .. } = motion(&tracker) else { panic!("{primitive}") };
@@ -321,18 +321,27 @@ fn tracker_finds_motions_again_once_it_is_told_where_the_robot_stands() {
     };
     // No robot stands like that.
     tracker.began("go");
-    tracker.stopped("go");
+    tracker.stopped("go", &[]);
     tracker.stands(base, &[("arm_lift_joint".into(), 9.0)].into());
     assert!(is_lost(&mut tracker));
-    // What the hand holds behind a grasp that broke off is not known.
+    // What the hand holds behind a grasp that broke off is not known, until the driver tells it.
+    let pick = [("object".into(), Value::Entity("mug_1".into()))];
     let mut tracker = session(&kitchen()).world_tracker().unwrap();
     tracker.began("pick");
-    tracker.stopped("pick");
+    tracker.stopped("pick", &pick);
     assert!(is_lost(&mut tracker));
+    tracker.observed("holding", "mug_1", true);
+    assert!(is_lost(&mut tracker));
+    tracker.observed("holding", "mug_1", false);
+    assert!(!is_lost(&mut tracker));
+    // Where the thing is by then is not known.
+    let mug = [Value::Entity("mug_1".into())];
+    let reach = |tracker: &motet_compiler::WorldTracker| tracker.motion("go", (&args, None), "go_to", &mug);
+    assert!(matches!(reach(&tracker), Forecast::Unknown { .. }), "{:?}", reach(&tracker));
     // Nor is it where a grasp has succeeded before the robot's place was known.
     let mut tracker = session(&kitchen()).world_tracker().unwrap();
     tracker.began("go");
-    tracker.stopped("go");
+    tracker.stopped("go", &[]);
     tracker.began("pick");
     tracker.succeeded("pick", &[("object".into(), Value::Entity("mug_1".into()))], None);
     assert!(is_lost(&mut tracker));
@@ -340,7 +349,7 @@ fn tracker_finds_motions_again_once_it_is_told_where_the_robot_stands() {
     let mut tracker = session(&kitchen()).world_tracker().unwrap();
     tracker.began("go");
     tracker.observed("holding", "mug_1", true);
-    tracker.stopped("go");
+    tracker.stopped("go", &[]);
     assert!(is_lost(&mut tracker));
 }
 

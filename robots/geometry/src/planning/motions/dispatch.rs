@@ -66,6 +66,17 @@ impl QueryContext<'_> {
         state
     }
 
+    /// State after the grasp of a witness of `reach`, wherever the robot is: its hand holds the object.
+    #[must_use]
+    pub fn taken(&self, witness: &MotionWitness) -> Option<SceneState> {
+        let (grasp, hand) = (witness.grasp.as_ref()?, self.model.hand()?);
+        let mut state = self.state.clone();
+        state.held = Some((grasp.object.clone(), grasp.tip_from_object));
+        state.moved.remove(&grasp.object);
+        state.robot.joints = hand.around(&state.robot.joints, self.model.rest(), grasp.width);
+        Some(state)
+    }
+
     /// State after the grasp of a witness of `reach`, with the robot back at the start and the object in its
     /// hand; `None` where no path back was found.
     #[must_use]
@@ -73,11 +84,8 @@ impl QueryContext<'_> {
         let grasp = witness.grasp.as_ref()?;
         let hand = self.model.hand()?;
         let end = witness.path.last()?;
-        let mut state = self.state.clone();
-        state.held = Some((grasp.object.clone(), grasp.tip_from_object));
-        state.moved.remove(&grasp.object);
+        let state = self.taken(witness)?;
         let rest = self.model.rest();
-        state.robot.joints = hand.around(&state.robot.joints, rest, grasp.width);
         let end = &Configuration { base: end.base, joints: hand.around(&end.joints, rest, grasp.width) };
         let (index, _) = self.entity(&grasp.object)?;
         let support = self.support(index);
@@ -98,14 +106,22 @@ impl QueryContext<'_> {
         is_back.then_some(state)
     }
 
+    /// State after a witness of `put`, wherever the robot is by then: the object stands where it was put.
+    #[must_use]
+    pub fn put_down(&self, witness: &MotionWitness) -> Option<SceneState> {
+        let grasp = witness.grasp.as_ref()?;
+        let mut state = self.state.clone();
+        state.held = None;
+        state.moved.insert(grasp.object.clone(), grasp.map_from_tip * grasp.tip_from_object);
+        Some(state)
+    }
+
     /// State after a witness of `put`, with the robot back at the start; `None` where no path back was found.
     #[must_use]
     pub fn after_put(&self, witness: &MotionWitness) -> Option<SceneState> {
         let grasp = witness.grasp.as_ref()?;
         let (hand, end) = (self.model.hand()?, witness.path.last()?);
-        let mut state = self.state.clone();
-        state.held = None;
-        state.moved.insert(grasp.object.clone(), grasp.map_from_tip * grasp.tip_from_object);
+        let state = self.put_down(witness)?;
         let (index, _) = self.entity(&grasp.object)?;
         let after = self.in_state(&state);
         let allowed = AllowedCollisions::of_grasp(&after, index);
@@ -135,15 +151,12 @@ impl QueryContext<'_> {
         Some(state)
     }
 
-    /// State after a container was opened or closed as a witness of `pull` or `push` says: the contents of a
-    /// drawer moved with it. The robot is back at the start, or at the handle with its arm folded where no
-    /// path leads back; `None` where neither was found.
+    /// State after a container was opened or closed as a witness of `pull` or `push` says, wherever the robot
+    /// is by then: the contents of a drawer moved with it.
     #[must_use]
-    pub fn after_pull(&self, witness: &MotionWitness) -> Option<SceneState> {
+    pub fn travelled(&self, witness: &MotionWitness) -> Option<SceneState> {
         let grasp = witness.grasp.as_ref()?;
-        let (hand, end) = (self.model.hand()?, witness.path.last()?);
-        let (index, entity) = self.entity(&grasp.object)?;
-        let allowed = AllowedCollisions::near(index);
+        let (_, entity) = self.entity(&grasp.object)?;
         let opening = Articulation::new(entity, self.state)?;
         let was_open = self.state.is_open(entity);
         let (from, to) = if was_open { (1.0, 0.0) } else { (0.0, 1.0) };
@@ -157,6 +170,19 @@ impl QueryContext<'_> {
                 state.moved.insert(inside.id.clone(), moved * pose);
             }
         }
+        Some(state)
+    }
+
+    /// State after a container was opened or closed as a witness of `pull` or `push` says: the contents of a
+    /// drawer moved with it. The robot is back at the start, or at the handle with its arm folded where no
+    /// path leads back; `None` where neither was found.
+    #[must_use]
+    pub fn after_pull(&self, witness: &MotionWitness) -> Option<SceneState> {
+        let grasp = witness.grasp.as_ref()?;
+        let (hand, end) = (self.model.hand()?, witness.path.last()?);
+        let (index, _) = self.entity(&grasp.object)?;
+        let allowed = AllowedCollisions::near(index);
+        let mut state = self.travelled(witness)?;
         let map_from_tip = self.model.map_from_links(end).get(hand.tip).copied()?;
         let mut there = None;
         let after = self.in_state(&state);
