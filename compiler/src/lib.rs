@@ -25,7 +25,7 @@ pub use declare::{
     Library, LibraryBuilder, MAX_COUNT, MAX_DECLARATIONS, MAX_FLUENT_PARAMS, MAX_RESOURCES, MAX_SECONDS,
 };
 pub use document::{Compiled, DocumentCheck, PolicyOutcome};
-pub use environment::{Environment, InitialState};
+pub use environment::{Environment, FactLifetime, InitialState};
 pub use feasibility::{Access, Forecast, Geometry, WorldTracker};
 pub use ir::MAX_ENTITIES;
 pub use lower::{CallInspection, MotionInspection, StepInspection};

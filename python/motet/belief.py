@@ -225,6 +225,8 @@ class Beliefs:
         self._cells: dict[Fact, _Cell] = {}
         self._wides: dict[str, list[tuple[Fact, bool | None, int]]] = {}
         self._readings: dict[Measure | Field, tuple[Any, float]] = {}
+        #: Facts that last only so long, with the resources and the entities that end them.
+        self.lasting: dict[Fact, tuple[frozenset[str], frozenset[Any]]] = {}
 
     # Entities.
 
@@ -275,6 +277,10 @@ class Beliefs:
 
     def apply(self, change: Change) -> None:
         """Makes a change."""
+        if change.sure and not change.rest:
+            for known in [fact for fact in self.lasting if fact.fluent == change.fact.fluent]:
+                if covers(change.fact.args, known.args):
+                    del self.lasting[known]
         if ANY in change.fact.args:
             self._write_wide(change)
         else:

@@ -97,7 +97,7 @@ class Graph:
 
 
 #: Parts of a node that say what it does, not what it asks.
-_EFFECT_KEYS = frozenset(("effects", "unsettles", "motion", "leaves"))
+_EFFECT_KEYS = frozenset(("effects", "unsettles", "lasts", "motion", "leaves"))
 
 
 def _asked(part: Any, graph: dict[str, Any], found: set[str]) -> None:

@@ -101,6 +101,10 @@ class Contract:
     needs: tuple[Need, ...] = ()
     makes: tuple[Entry, ...] = ()
     unsettles: tuple[Entry, ...] = ()
+    #: Resources whose use ends the lifetime of what a perception makes.
+    until_used: tuple[str, ...] = ()
+    #: Entities: an action that changes something about one of them ends it.
+    until_moved: tuple[Any, ...] = ()
     planned: Planned | None = None
 
 
@@ -183,6 +187,7 @@ class Robot:
         attempt: int,
     ) -> Any:
         values = await self._ready(args, contract, attempt > 1)
+        self._end_lifetimes(primitive, contract)
         self._apply(self._changes(contract.unsettles, None))
         outcome, value = await self._goal(primitive, values, within, manner, contract)
         declared = self.script.primitives.get(primitive, {}).get("result")
@@ -192,8 +197,9 @@ class Robot:
             if declared is not None:
                 self._is_unproven |= bool(among) and isinstance(value, Entity) and value not in among
                 self.beliefs.hear(value, declared)
-            self._make(contract, value)
+            self._make(primitive, contract, value)
             return value
+        self._end_lifetimes(primitive, contract)
         self._doubt(contract)
         if outcome == "interrupted":
             raise Interrupted
@@ -331,13 +337,34 @@ class Robot:
     def _changes(self, entries: Iterable[Entry], truth: bool | None) -> list[Change]:
         return [change for entry in entries for change in self._entry(entry, truth)]
 
-    def _make(self, contract: Contract, result: Any) -> None:
+    def _make(self, primitive: str, contract: Contract, result: Any) -> None:
         """What a successful call makes is believed."""
         self._result = result
+        self._end_lifetimes(primitive, contract)
         made = [change for entry in contract.makes for change in self._entry(entry, not isinstance(entry.fact, Not))]
+        look = self._look(self._now(), None)
+        entities = frozenset(look.value(entity) for entity in contract.until_moved)
         self._result = None
         # What is both made and unmade is made.
         self._apply(sorted(made, key=lambda change: change.truth is True))
+        if contract.until_used or contract.until_moved:
+            for change in made:
+                if change.sure:
+                    self.beliefs.lasting[change.fact] = (frozenset(contract.until_used), entities)
+
+    def _end_lifetimes(self, primitive: str, contract: Contract) -> None:
+        """What was seen is unknown once a call uses a resource, or an action changes something about an entity."""
+        if not self.beliefs.lasting:
+            return
+        declared = self.script.primitives.get(primitive, {})
+        used = frozenset(declared.get("uses", ()))
+        is_action = declared.get("kind") != "perception"
+        entries = (*contract.makes, *contract.unsettles) if is_action else ()
+        facts = [entry.fact.inner if isinstance(entry.fact, Not) else entry.fact for entry in entries]
+        look = self._look(self._now(), None)
+        moved = frozenset(look.value(fact.args[0]) for fact in facts if fact.args and fact.args[0] is not ANY) - {None}
+        over = [fact for fact, (uses, of) in self.beliefs.lasting.items() if used & uses or moved & of]
+        self._apply(Change(fact, None) for fact in over)
 
     def _doubt(self, contract: Contract) -> None:
         """Nothing is known any more of what a call makes or unsettles."""

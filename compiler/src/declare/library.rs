@@ -204,6 +204,13 @@ pub(crate) struct LastsDef {
     pub(crate) entities: Vec<Term>,
 }
 
+/// Lifetime of the facts that a perception has made.
+#[derive(Clone, Debug)]
+pub(crate) struct PerceptionLifetime {
+    pub(crate) resources: ResourceSet,
+    pub(crate) entities: Vec<Entity>,
+}
+
 impl NeedDef {
     /// Highest index of a parameter that the need mentions.
     pub(crate) fn last_param(&self) -> Option<u16> {

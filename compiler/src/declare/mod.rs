@@ -27,4 +27,4 @@ pub use self::card::MAX_RESOURCES;
 pub use self::library::Library;
 
 pub(crate) use self::contract::resolve_type;
-pub(crate) use self::library::{EffectDef, LastsDef, NeedDef, PrimitiveDef, ResourceSet};
+pub(crate) use self::library::{EffectDef, LastsDef, NeedDef, PerceptionLifetime, PrimitiveDef, ResourceSet};

@@ -7,13 +7,14 @@ use motet_stdlib::lang;
 use motet_syntax::ast::MAX_MISTAKES;
 use motet_syntax::located::Spanned;
 use motet_syntax::{Diagnostic, Span, Syntax};
+use rustc_hash::FxHashMap;
 use smol_str::{SmolStr, format_smolstr};
 
 use super::Environment;
 use super::diagnostics::{Contradiction, NotAFact};
 use crate::declare::elaborator::Elaborator;
-use crate::declare::{Library, MAX_INITIALLY, MAX_PATTERNS};
-use crate::ir::{Base, Entity, Fact, Fluent, Term};
+use crate::declare::{Library, MAX_INITIALLY, MAX_PATTERNS, PerceptionLifetime};
+use crate::ir::{Base, Entities, Entity, Fact, Fluent, Term};
 
 /// Facts at the start with their truth values, in order, in text syntax: `{"holding(mug_1)": true}`.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -22,6 +23,31 @@ pub struct InitialState {
     pub facts: IndexMap<String, (Option<bool>, Span)>,
     /// Grip of a thing, which counts while the hand holds that: `{"grip(mug_1)": {"xyz": …, "rpy": …}}`.
     pub grip: Option<Grip>,
+    /// Lifetimes of those facts that a perception has made.
+    pub lasting: Vec<FactLifetime>,
+}
+
+/// Lifetime of a fact that a perception has made before the start.
+#[derive(Clone, PartialEq, Debug)]
+pub struct FactLifetime {
+    /// The fact, as the state writes it.
+    pub fact: String,
+    /// Names of the resources whose use ends it.
+    pub uses: Vec<SmolStr>,
+    /// Names of entities: an action that changes something about one of them ends it.
+    pub entities: Vec<SmolStr>,
+}
+
+impl FactLifetime {
+    /// The lifetime in a library; names that it does not know end nothing.
+    fn of(&self, library: &Library, entities: &Entities) -> PerceptionLifetime {
+        let is_named = |name: &SmolStr| self.uses.contains(name);
+        let used = library.resources.iter().filter(|resource| is_named(&resource.name));
+        PerceptionLifetime {
+            resources: used.fold(0, |all, resource| all | resource.closure),
+            entities: self.entities.iter().filter_map(|name| Some(entities.find(name)?.0)).collect(),
+        }
+    }
 }
 
 impl FromIterator<(Spanned<String>, StateEntry)> for InitialState {
@@ -82,6 +108,8 @@ impl InitialState {
         let entities = environment.entities().clone();
         let (mut said, mut patterns) = (Vec::new(), 0);
         let says_free = self.facts.keys().any(|text| text.trim_start().starts_with(lang::fluents::FREE));
+        let lasting: FxHashMap<&str, &FactLifetime> =
+            self.lasting.iter().map(|lifetime| (lifetime.fact.as_str(), lifetime)).collect();
         for (index, (text, (value, span))) in self.facts.iter().enumerate() {
             if diagnostics.len() > MAX_MISTAKES {
                 break;
@@ -123,9 +151,13 @@ impl InitialState {
                     }
                     super::base_pose_facts::doubt(library, environment, &fact, *value);
                     said.push((fact.clone(), *value, *span));
-                    match value {
-                        Some(value) => environment.assert_fact(fact, *value),
-                        None => environment.forget(&fact),
+                    let Some(value) = value else {
+                        environment.forget(&fact);
+                        continue;
+                    };
+                    environment.assert_fact(fact.clone(), *value);
+                    if let Some(lifetime) = lasting.get(text.as_str()) {
+                        environment.limit(&fact, *value, lifetime.of(library, &entities));
                     }
                 }
                 (_, why) => {

@@ -7,7 +7,7 @@ mod initial_state;
 mod scene_facts;
 
 pub(crate) use base_pose_facts::BasePoseFacts;
-pub use initial_state::InitialState;
+pub use initial_state::{FactLifetime, InitialState};
 
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ use motet_syntax::Diagnostic;
 use rustc_hash::{FxHashMap, FxHashSet};
 use smol_str::SmolStr;
 
-use crate::declare::Library;
+use crate::declare::{Library, PerceptionLifetime};
 use crate::facts::{ANY, Cause, FactKey, FactStore, TruthSet, arg};
 use crate::ir::{Entities, Entity, Fact, Fluent, Kind, ROBOT, Term};
 
@@ -34,6 +34,8 @@ pub struct Environment {
     /// Last two bytes of each description: a cheap test that rules out most texts.
     endings: FxHashSet<(u8, u8)>,
     pub(crate) facts: FactStore<'static>,
+    /// Lifetimes of facts at the start, by their causes.
+    pub(crate) lasting: Vec<PerceptionLifetime>,
     /// The facts at the start as they were given, in order, for the graph.
     pub(crate) given: Vec<(Fact, bool)>,
     /// Arguments of these facts, by fluent and place.
@@ -80,6 +82,7 @@ impl Environment {
             descriptions,
             endings,
             facts,
+            lasting: Vec::new(),
             given: Vec::new(),
             given_of: FxHashSet::default(),
             base_pose_facts: BasePoseFacts::default(),
@@ -131,6 +134,13 @@ impl Environment {
         let of = key(&fact);
         self.given_of.extend((0..fact.args.len()).map(|index| (fact.fluent, index, of.arg(index))));
         self.given.push((fact, value));
+    }
+
+    /// Gives a fact at the start the lifetime of a perception before it.
+    pub(crate) fn limit(&mut self, fact: &Fact, value: bool, lifetime: PerceptionLifetime) {
+        let cause = Cause::seen_at_start(self.lasting.len());
+        self.lasting.push(lifetime);
+        self.facts.set(fact.fluent, key(fact), TruthSet::of(value, cause));
     }
 
     /// Records that a fact is unknown at the start; a fact with `any` covers many.

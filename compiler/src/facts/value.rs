@@ -108,12 +108,31 @@ impl Cause {
 
     /// Mark of a step that saw the fact, which then lasts only so long.
     const SEEN: u32 = 1 << 31;
+    /// Mark of a fact of the start that was seen before it.
+    const AT_START: u32 = 1 << 30;
     /// Several steps that saw the fact, on paths that have met.
     pub(crate) const SEEN_BY_SEVERAL: Self = Self(u32::MAX);
 
     /// Step of the policy as a cause.
     pub(crate) fn step(id: StepId) -> Self {
-        Self(id.0.saturating_add(3).min(Self::SEEN - 2))
+        Self(id.0.saturating_add(3).min(Self::AT_START - 1))
+    }
+
+    /// Perception before the start, by the position of its lifetime in the environment.
+    pub(crate) fn seen_at_start(index: usize) -> Self {
+        let index = u32::try_from(index).unwrap_or(u32::MAX).min(Self::AT_START - 2);
+        Self(index | Self::AT_START | Self::SEEN)
+    }
+
+    /// Position of the lifetime, if the fact was seen before the start.
+    pub(crate) fn as_seen_at_start(self) -> Option<usize> {
+        let is_seen = self != Self::SEEN_BY_SEVERAL && self.0 & Self::AT_START != 0;
+        is_seen.then_some((self.0 & (Self::AT_START - 1)) as usize)
+    }
+
+    /// Returns whether the fact is one of the start.
+    pub(crate) fn is_start(self) -> bool {
+        self == Self::START || self.as_seen_at_start().is_some()
     }
 
     /// Step that saw the fact.
@@ -123,7 +142,8 @@ impl Cause {
 
     /// The step, if a step is the cause.
     pub(crate) fn as_step(self) -> Option<StepId> {
-        if self == Self::SEEN_BY_SEVERAL { None } else { (self.0 & !Self::SEEN).checked_sub(3).map(StepId) }
+        let step = (self.0 & !Self::SEEN).checked_sub(3);
+        step.filter(|_| self.0 & Self::AT_START == 0).map(StepId)
     }
 
     /// The cause, if the fact lasts only so long.

@@ -150,7 +150,7 @@ impl Prover<'_> {
                 let name = self.cause_name(cause);
                 (step, FactCause::Step { span: step_of.span, name })
             }
-            None if cause == Cause::START => (None, FactCause::Start),
+            None if cause.is_start() => (None, FactCause::Start),
             None if truth == KnownTruth::Unobserved => return None,
             None => (None, FactCause::Nothing),
         };

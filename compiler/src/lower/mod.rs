@@ -464,6 +464,7 @@ impl Lowering<'_> {
                 motion: None,
                 effects: Vec::new(),
                 unsettles: Vec::new(),
+                lasts: None,
             };
         };
         let mut needs = Vec::with_capacity(def.needs.len());
@@ -496,6 +497,17 @@ impl Lowering<'_> {
             }),
             effects: def.makes.iter().filter_map(|effect| self.effect(effect, call)).collect(),
             unsettles: def.unsettles.iter().filter_map(|effect| self.unsettled(effect, call)).collect(),
+            lasts: def.lasts.as_ref().filter(|_| !def.makes.is_empty()).map(|lasts| {
+                let (used, uses) = (lasts.resources, library.resources.iter().enumerate());
+                let uses = uses.filter(|(_, resource)| resource.closure & used != 0);
+                let entities = lasts.entities.iter().map(|term| self.tables.term(term, &call.args, binds));
+                graph::Lifetime {
+                    uses: uses
+                        .filter_map(|(index, _)| u32::try_from(index).ok().map(graph::ResourceId))
+                        .collect(),
+                    entities: entities.collect(),
+                }
+            }),
         }
     }
 

@@ -11,11 +11,12 @@ use rustc_hash::{FxHashSet, FxHasher};
 
 use super::NoPlan;
 use super::estimate::{Estimate, Ready};
+use crate::declare::PerceptionLifetime;
 use crate::facts::Cause;
 use crate::ir::{Condition, StepId};
 use crate::plan::achievers::CandidateCall;
 use crate::prove::Prover;
-use crate::prove::effects::{FactChange, PerceptionLifetime};
+use crate::prove::effects::FactChange;
 use crate::prove::evaluation::CallFrame;
 
 /// Weight of the heuristic against the cost so far: above 1 the search is greedier.

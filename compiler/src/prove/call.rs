@@ -5,11 +5,11 @@ use smallvec::SmallVec;
 
 use super::assume::Outcome;
 use super::diagnostics::{Refuted, Stale};
-use super::effects::{Certainty, FactChange, PerceptionLifetime, weaken};
+use super::effects::{Certainty, FactChange, weaken};
 use super::evaluation::{CallFrame, MAX_ALIASES};
 use super::{CertainFact, Mode, NeedVerdict, NeedVerdicts, Problem, Prover};
 use crate::analysis::{Domain, Enclosing};
-use crate::declare::{EffectDef, LastsDef, NeedDef, PrimitiveDef, ResourceSet};
+use crate::declare::{EffectDef, LastsDef, NeedDef, PerceptionLifetime, PrimitiveDef, ResourceSet};
 use crate::environment::base_pose_facts;
 use crate::facts::{ANY, Cause, FactKey, TruthSet, effort};
 use crate::ir::{

@@ -1,5 +1,7 @@
 //! Effects on the facts: makes, unsettles, and stale perceptions.
 
+use std::cell::OnceCell;
+
 use motet_syntax::ast::{CompareOp, PrimitiveKind};
 
 use super::Prover;
@@ -9,7 +11,7 @@ use crate::facts::{ANY, Atom, Cause, FactKey, TruthSet, effort};
 use smallvec::SmallVec;
 use smol_str::SmolStr;
 
-use crate::declare::{EffectDef, PrimitiveDef, ResourceSet};
+use crate::declare::{EffectDef, PerceptionLifetime, PrimitiveDef};
 use crate::ir::{Condition, Entity, Fact, Fluent, Kind, StepId, Term, Ty};
 
 /// Maximal number of facts that one with symbols may be, before all facts of its fluent are weakened.
@@ -53,13 +55,6 @@ pub(super) enum Certainty {
 
 /// Entities that a contract mentions: usually few.
 type Entities = SmallVec<[Entity; 8]>;
-
-/// Lifetime of a perceived fact.
-#[derive(Clone, Debug)]
-pub(crate) struct PerceptionLifetime {
-    pub(crate) resources: ResourceSet,
-    pub(crate) entities: Vec<Entity>,
-}
 
 impl Prover<'_> {
     /// Computes the changes of effects in the present state.
@@ -443,41 +438,71 @@ impl Prover<'_> {
 
     /// Makes perceived facts stale once a step uses their resource or moves their entity.
     pub(crate) fn make_stale(&mut self, step: StepId, def: &PrimitiveDef, frame: CallFrame<'_>) {
-        if self.state.lasting.is_empty() {
+        let (seen, seen_before) = (&self.state.lasting, &self.environment.lasting);
+        if seen.is_empty() && seen_before.is_empty() {
             return;
         }
-        let (mut moved, mut any_ends) = (None, None);
-        let mut stale: SmallVec<[_; 8]> = SmallVec::new();
-        for fluent in self.library.perceived.iter().copied().chain([self.fresh]) {
-            self.state.facts.written(fluent, |key, value| {
-                let source = if fluent == self.fresh { Some(pose_step(key)) } else { value.yes.as_step() };
-                let is_known = value.yes.is_some();
-                let mut ends = |of: &PerceptionLifetime| {
-                    let has_moved =
-                        |entity| moved.get_or_insert_with(|| self.moved(def, frame)).contains(entity);
-                    of.resources & def.uses != 0 || of.entities.iter().any(has_moved)
-                };
-                let is_over = if value.yes == Cause::SEEN_BY_SEVERAL {
-                    *any_ends.get_or_insert_with(|| {
-                        effort::spend(self.state.lasting.len());
-                        self.state.lasting.iter().any(|(by, of)| *by != step && ends(of))
-                    })
-                } else {
-                    let source = source.filter(|source| is_known && *source != step);
-                    source.and_then(|source| self.state.lasting.get(&source)).is_some_and(ends)
-                };
-                if is_over {
-                    stale.push((fluent, key, value));
-                }
-            });
-        }
-        // The order of a table is not that of the document.
-        stale.sort_unstable_by_key(|(fluent, key, _)| (*fluent, *key));
+        let moved = self.moved(def, frame);
+        let may_equal = |a, b| self.symbols.may_equal(self.library, self.environment, a, b);
+        let end_of = |of: &PerceptionLifetime| {
+            if of.resources & def.uses != 0 || of.entities.iter().any(|entity| moved.contains(entity)) {
+                return Some(Certainty::Always);
+            }
+            let mut pairs = of.entities.iter().flat_map(|one| moved.iter().map(|other| (*one, *other)));
+            pairs.any(|(one, other)| may_equal(one, other)).then_some(Certainty::Unknown)
+        };
+        let of_several = OnceCell::new();
+        let end = |cause: Cause| {
+            if cause == Cause::SEEN_BY_SEVERAL {
+                *of_several.get_or_init(|| {
+                    effort::spend(seen.len() + seen_before.len());
+                    seen.values().chain(seen_before).filter_map(end_of).min()
+                })
+            } else if let Some(index) = cause.as_seen_at_start() {
+                seen_before.get(index).and_then(end_of)
+            } else {
+                cause.as_step().and_then(|by| seen.get(&by)).and_then(end_of)
+            }
+        };
         let cause = Cause::step(step);
-        for (fluent, key, value) in stale {
-            let rest = TruthSet { yes: Cause::NONE, ..value };
-            let gone = if fluent == self.fresh { TruthSet::no(cause) } else { TruthSet::open(cause) };
-            self.state.facts.set(fluent, key, rest.join(gone));
+        let after = |value: TruthSet| {
+            let ends = [value.yes, value.no].map(end);
+            if ends == [None; 2] {
+                return value;
+            }
+            let kept = |cause, end| if end == Some(Certainty::Always) { Cause::NONE } else { cause };
+            let [yes, no] = ends;
+            let rest = TruthSet { yes: kept(value.yes, yes), no: kept(value.no, no), ..value };
+            rest.join(TruthSet::open(cause))
+        };
+        let mut stale: SmallVec<[_; 8]> = SmallVec::new();
+        for fluent in self.library.perceived.iter().copied() {
+            let take = |key| {
+                let value = self.state.facts.get(fluent, key);
+                if after(value) != value {
+                    stale.push((fluent, key));
+                }
+            };
+            match seen_before.is_empty() {
+                true => self.state.facts.written_parts(fluent, take),
+                false => self.state.facts.parts(fluent, FactKey::ALL, take),
+            }
+        }
+        let mut poses: SmallVec<[_; 8]> = SmallVec::new();
+        self.state.facts.written(self.fresh, |key, value| {
+            let is_over = || end(Cause::step(pose_step(key))) == Some(Certainty::Always);
+            if value.yes.is_some() && is_over() {
+                poses.push((key, TruthSet { yes: Cause::NONE, ..value }.join(TruthSet::no(cause))));
+            }
+        });
+        // The order of a table is not that of the document.
+        stale.sort_unstable_by_key(|(fluent, key)| (!key.is_pattern(), *fluent, *key));
+        poses.sort_unstable_by_key(|(key, _)| *key);
+        for (fluent, key) in stale {
+            self.state.facts.change(fluent, key, |_, value| after(value));
+        }
+        for (key, value) in poses {
+            self.state.facts.set(self.fresh, key, value);
         }
     }
 

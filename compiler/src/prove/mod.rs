@@ -31,13 +31,13 @@ pub(crate) use self::assume::mentions;
 
 use self::collector::Collector;
 use self::diagnostics::TooDeep;
-use self::effects::{FactChange, PerceptionLifetime};
+use self::effects::FactChange;
 use self::evaluation::CallFrame;
 use self::suspended::{ProofInput, ProofTarget};
 use self::symbols::Symbols;
 use self::test_outcomes::TestTable;
 use crate::analysis::{Domain, Enclosing};
-use crate::declare::{Library, PrimitiveDef};
+use crate::declare::{Library, PerceptionLifetime, PrimitiveDef};
 use crate::environment::Environment;
 use crate::facts::{Atom, FactKey, FactStore, PathPartition, TruthSet, effort};
 use crate::ir::{Condition, Entity, Fluent, Measure, Program, StepId, Term};

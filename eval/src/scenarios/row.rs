@@ -205,7 +205,7 @@ pub(super) fn state(row: &Row, names: &Names, robot: &Robot) -> InitialState {
     for rule in scene.get("rules").and_then(Value::as_array).into_iter().flatten() {
         forbid(rule, names, &mut facts);
     }
-    InitialState { facts: facts.0, grip: None }
+    InitialState { facts: facts.0, ..InitialState::default() }
 }
 
 /// Facts about the places of things, about things under others, and about full places.

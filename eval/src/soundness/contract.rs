@@ -100,7 +100,7 @@ pub(super) struct Action {
     pub(super) fails: Vec<&'static str>,
     /// Resource that it holds.
     pub(super) uses: Option<&'static str>,
-    /// True if what it makes true may be false once a later step uses the base.
+    /// True if what it makes may be otherwise once a later step uses the base.
     pub(super) is_stale_by_base: bool,
     /// True for a perception that finds an object.
     pub(super) finds: bool,

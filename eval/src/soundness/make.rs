@@ -195,7 +195,18 @@ fn action(dice: &mut SplitMix64, domain: &Domain, finds: bool) -> Action {
     let makes = (0..least + dice.random_range(0..3)).map(|_| change(dice, domain, &terms)).collect();
     let unsettles = (0..usize::from(chance(dice, 20))).map(|_| change(dice, domain, &terms)).collect();
     let fails = FAILURES.into_iter().filter(|_| chance(dice, 40)).collect();
-    // Without any it would hold the whole robot.
     let uses = chance(dice, 90).then(|| one_of(dice, &RESOURCES)).flatten();
-    Action { params, needs, makes, unsettles, fails, uses, finds, finds_all, ..Action::default() }
+    let is_stale_by_base = (finds || finds_all) && chance(dice, 50);
+    Action {
+        params,
+        needs,
+        makes,
+        unsettles,
+        fails,
+        uses,
+        finds,
+        finds_all,
+        is_stale_by_base,
+        ..Action::default()
+    }
 }

@@ -36,8 +36,10 @@ struct Running {
     unfinished: Vec<usize>,
     /// Cells that it makes, if it succeeds.
     makes: Vec<usize>,
-    /// Cells that it perceives to be true for a time.
+    /// Cells that it perceives for a time.
     perceives: Vec<usize>,
+    /// True if it uses the base.
+    uses_base: bool,
     /// Changes that are still to come, each at its time.
     flips: Vec<(Time, usize, bool)>,
     ends: Time,
@@ -256,6 +258,14 @@ impl<'d> World<'d> {
         if hidden.is_empty() { told(false) } else { Answer::Unknown }
     }
 
+    /// What an answer has told of single facts is so until something changes it.
+    fn observed(&mut self, query: &Query, answer: &Answer) {
+        let cells = self.asked(query).unwrap_or_default();
+        if *answer == Answer::Truth(false) || (cells.len() == 1 && *answer != Answer::Unknown) {
+            self.perceived.retain(|cell| !cells.contains(cell));
+        }
+    }
+
     fn is_watched(&self, query: &Query) -> bool {
         let name = |query: &Query| match query {
             Query::Fact { fluent: name, .. } | Query::Measure { measure: name, .. } => Some(name.clone()),
@@ -340,10 +350,19 @@ impl<'d> World<'d> {
         }
         flips.extend(finally.into_iter().map(|(cell, truth)| (ends, cell, truth)));
         let makes: Vec<usize> = made.iter().filter(|_| succeeds).map(|(cell, _)| *cell).collect();
-        let lasts =
-            |(cell, truth): &&(usize, bool)| action.is_stale_by_base && *truth && makes.contains(cell);
-        let perceives = made.iter().filter(lasts).map(|(cell, _)| *cell).collect();
-        Running { id, touches, unfinished, makes, perceives, flips, ends, outcome, held: None }
+        let perceives = if action.is_stale_by_base { makes.clone() } else { Vec::new() };
+        let uses_base = action.uses == Some(BASE);
+        Running { id, touches, unfinished, makes, perceives, uses_base, flips, ends, outcome, held: None }
+    }
+
+    /// Lets anything be so of what was perceived before the base moved.
+    fn outdate(&mut self) {
+        for cell in std::mem::take(&mut self.perceived) {
+            if chance(&mut self.dice, 50) {
+                let truth = chance(&mut self.dice, 50);
+                self.flip(cell, truth);
+            }
+        }
     }
 
     /// Lets what a hand holds drop: nothing that the step which took it has made need be so any more.
@@ -388,6 +407,9 @@ impl<'d> World<'d> {
         let goal = self.running.remove(place);
         self.made_with.retain(|cell, _| !goal.touches.contains(cell));
         self.perceived.retain(|cell| !goal.touches.contains(cell));
+        if goal.uses_base {
+            self.outdate();
+        }
         self.unheard.push((id, goal.touches));
         for cell in goal.unfinished {
             if chance(&mut self.dice, 50) {
@@ -425,7 +447,13 @@ impl<'d> World<'d> {
         let goal = self.running.remove(place);
         self.made_with.retain(|cell, _| !goal.touches.contains(cell));
         self.perceived.retain(|cell| !goal.touches.contains(cell));
+        if goal.uses_base {
+            self.outdate();
+        }
         self.perceived.extend(goal.perceives);
+        if self.running.iter().any(|other| other.uses_base) {
+            self.outdate();
+        }
         self.made_with.extend(goal.makes.iter().map(|cell| (*cell, goal.makes.clone())));
         self.unheard.push((goal.id, goal.touches));
         self.say(now, DriverEvent::Ended { goal: goal.id, outcome: goal.outcome });
@@ -476,6 +504,7 @@ impl Driver for World<'_> {
                 unfinished,
                 makes,
                 perceives,
+                uses_base: false,
                 flips: Vec::new(),
                 ends,
                 outcome,
@@ -488,11 +517,7 @@ impl Driver for World<'_> {
         }
         self.say(now, DriverEvent::Acknowledged { goal });
         if action.uses == Some(BASE) {
-            for cell in std::mem::take(&mut self.perceived) {
-                if chance(&mut self.dice, 50) {
-                    self.flip(cell, false);
-                }
-            }
+            self.outdate();
         }
         let outcome = self.outcome(action, &mut frame);
         let mut running = self.plan(goal, action, &frame, outcome);
@@ -548,6 +573,7 @@ impl Driver for World<'_> {
             answer = Answer::Unknown;
         }
         // No answer is overtaken by a report of what is watched, or by a later answer to the same question.
+        self.observed(query, &answer);
         let is_prompt = self.answers_at_once || self.is_watched(query);
         let at = if is_prompt { now } else { self.late() };
         let is_same =
@@ -560,6 +586,7 @@ impl Driver for World<'_> {
     fn watch(&mut self, now: Time, query: &Query) {
         self.now = now;
         let answer = self.answer(query);
+        self.observed(query, &answer);
         self.watches.push((query.clone(), answer.clone()));
         self.say(now, DriverEvent::Observed { query: query.clone(), answer });
     }

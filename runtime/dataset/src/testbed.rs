@@ -103,7 +103,7 @@ impl Testbed {
     ) -> Result<Self, String> {
         let robot = &body.robot;
         let fact = |(fluent, holds): (&SmolStr, &bool)| (written(fluent), (Some(*holds), Span::default()));
-        let state = InitialState { facts: posture.iter().map(fact).collect(), grip: None };
+        let state = InitialState { facts: posture.iter().map(fact).collect(), ..InitialState::default() };
         let inputs = SessionInputs::of(robot, scene, Some(&state).filter(|_| !posture.is_empty()));
         let base = open(&inputs)?;
         let (session, geometry) = match (effort, &body.urdf) {

@@ -26,6 +26,7 @@ mod trace;
 mod turn;
 mod verifier;
 
+pub use belief::PerceivedFact;
 pub use cleanup::PendingCleanup;
 pub use driver::{Capabilities, Driver, DriverClock, MissingPrimitive, PrimitiveSet};
 pub use effect::{Command, DeferredMotion, Effect, Fault, MotionVerdict, PlannedMotion, RunEnd};

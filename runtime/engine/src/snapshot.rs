@@ -1,6 +1,6 @@
 //! The state of a run as plain data: what a compiler proves a new policy from, and what a trace shows.
 
-use crate::belief::{Beliefs, Facts, truth_of};
+use crate::belief::{Beliefs, Facts, PerceivedFact, truth_of};
 use crate::cleanup::PendingCleanup;
 use crate::effect::Command;
 use crate::ids::GoalId;
@@ -36,6 +36,9 @@ pub struct Snapshot {
     pub facts: Vec<(Query, Truth)>,
     /// Facts with `any` that hold of some entity, where it is not known of which.
     pub some: Vec<Query>,
+    /// Of these facts, those that last only so long.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub lasting: Vec<PerceivedFact>,
     /// The last readings of measures and fields, with their times, by query.
     pub readings: Vec<Reading>,
     /// Entities that the engine has heard of, with the name of their kind where it is known.
@@ -71,6 +74,7 @@ impl Snapshot {
         StartState {
             facts: self.facts.clone(),
             some: self.some.clone(),
+            lasting: self.lasting.clone(),
             entities: self.entities.clone(),
             bindings: self.bindings.clone(),
             pending: self.pending.clone(),
@@ -125,6 +129,7 @@ impl Snapshot {
             robot: graph.robot.clone(),
             facts,
             some: some.collect(),
+            lasting: run.beliefs.lasting.clone(),
             readings,
             entities: run.beliefs.entities.named().collect(),
             bindings: bindings

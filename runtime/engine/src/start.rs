@@ -1,6 +1,6 @@
 //! Knowledge at the beginning of a run: from the graph and from the host.
 
-use crate::belief::Beliefs;
+use crate::belief::{Beliefs, PerceivedFact};
 use crate::cleanup::PendingCleanup;
 use crate::json;
 use crate::query::{Answer, Pattern, Query, Truth};
@@ -25,6 +25,9 @@ pub struct StartState {
     /// Facts with `any` that hold for some entity, which one is not known.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub some: Vec<Query>,
+    /// Of the facts that hold or do not hold, those that last only so long.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub lasting: Vec<PerceivedFact>,
     /// Entities with the names of their kinds. Effects that quantify over a kind range over these and over
     /// every entity that a graph, a result or an observation names.
     #[serde(with = "json::entities")]
@@ -77,6 +80,10 @@ pub(crate) fn believe(graph: &Graph, start: &StartState) -> Beliefs {
             beliefs.observe(cell, Answer::Truth(true), Time::ZERO);
         }
     }
+    let is_known =
+        |fact: &Query| matches!(fact, Query::Fact { fluent, .. } if beliefs.fluents.contains_key(fluent));
+    let lasting = start.lasting.iter().filter(|lasting| is_known(&lasting.fact)).cloned();
+    beliefs.lasting = lasting.collect();
     beliefs.changed.clear();
     beliefs
 }

@@ -33,7 +33,7 @@ impl RobotInRoom {
         let facts = engine.map(|engine| engine.snapshot().state()).unwrap_or_default().into_iter();
         let state = InitialState {
             facts: facts.map(|(fact, holds)| (fact, (holds, Span::default()))).collect(),
-            grip: None,
+            ..InitialState::default()
         };
         let session =
             Session::builder().robot(&self.robot).scene(&self.scene).state(&state).build(&mut sources);

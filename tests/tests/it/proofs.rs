@@ -250,7 +250,11 @@ fn proofs_of_what_was_seen_end_with_its_lifetime() {
         let seen =
             "perception see_a(what: Text) -> Object\n    makes f(a)\n    lasts until base\n    uses camera\n";
         let heard = seen.replace("see_a", "hear_a").replace("base", "voice");
-        format!("{seen}{heard}policy p {{ {steps} }}")
+        let all = seen.replace("see_a", "see_all").replace("f(a)", "f(any)");
+        let moved = "perception touch(o: Object)\n    makes f(o)\n    lasts until o\n    uses camera\n\
+                     perception find(what: Text) -> Object\n    uses camera\n\
+                     action lift(o: Object)\n    makes g(o)\n    uses voice\n";
+        format!("{seen}{heard}{all}{moved}policy p {{ {steps} }}")
     };
     for steps in [
         "if g(a) { make(a) } else { see_a(\"a\") } wave() use(a)",
@@ -261,12 +265,16 @@ fn proofs_of_what_was_seen_end_with_its_lifetime() {
         "if g(a) { hear_a(\"a\") } else { see_a(\"a\") } wave() use(a)",
         "make(a) repeat 3 { wave() use(a) see_a(\"a\") }",
         "parallel { { see_a(\"a\") } { pass() wave() } } use(a)",
+        "see_all(\"a\") wave() use(a)",
+        "touch(a) let x = find(\"a\") lift(x) use(a)",
         "parallel { { see_a(\"a\") use(a) } { pass() wave() } }",
         "parallel { { wave() } { if g(a) { see_a(\"a\") use(a) } } }",
     ] {
         assert_eq!(verdicts("use", &policy(steps)), [Verdict::Deferred], "{steps}");
     }
     for steps in [
+        "see_all(\"a\") pass() use(a)",
+        "see_all(\"a\") make(a) wave() use(a)",
         "if g(a) { make(a) } else { see_a(\"a\") } use(a)",
         "see_a(\"a\") make(a) wave() use(a)",
         "make(a) repeat 3 { pass() use(a) see_a(\"a\") }",

@@ -1,12 +1,13 @@
 //! Needs that only a guard can vouch for: the compiler may not prove them from a test that stayed unknown, or
 //! from a guard that has refused.
 
+use motet_compiler::{FactLifetime, InitialState, Session};
 use motet_graph::{Graph, NodeKind, Value, Verdict};
 use motet_runtime::{
     Answer, DriverEvent, Effect, Engine, Event, GoalId, Outcome, Pattern, PreparedSwap, Query, StartState,
     Time,
 };
-use motet_syntax::{FileId, Source, Sources};
+use motet_syntax::{FileId, Source, Sources, Span};
 use motet_tests::setup;
 
 pub(crate) const DOMAIN: &str = "
@@ -52,7 +53,11 @@ pub(crate) fn requests(policy: &str, answers: Answers<'_>) -> Vec<String> {
 }
 
 fn requests_of(graph: Graph, answers: Answers<'_>) -> Vec<String> {
-    let mut engine = Engine::new(graph, &StartState::default()).unwrap();
+    requests_from(graph, &StartState::default(), answers)
+}
+
+fn requests_from(graph: Graph, start: &StartState, answers: Answers<'_>) -> Vec<String> {
+    let mut engine = Engine::new(graph, start).unwrap();
     let (mut events, mut found) = (std::collections::VecDeque::from([Event::Begin]), Vec::new());
     let mut now = 0.0;
     while let Some(event) = events.pop_front() {
@@ -754,4 +759,69 @@ fn soundness_a_closed_world_fires_its_monitors_at_once() {
     let found = requests(policy, &mut |effect| honest(effect, |_| None));
     let starts: Vec<&String> = found.iter().filter(|request| request.starts_with("start")).collect();
     assert!(starts[0].contains("make"), "{found:?}");
+}
+
+/// A fact that was only seen ends with its lifetime in a run as in the proof, also in a policy that follows.
+#[test]
+fn soundness_what_was_seen_ends_with_its_lifetime_in_a_run() {
+    let declared = "perception peek(o: Object)\n    makes f(o)\n    lasts until base, o\n    uses camera\n\
+                    action lift(o: Object)\n    makes g(o)\n    uses voice\n";
+    let graph = |steps: &str| compiled(&format!("{declared}policy p {{ {steps} }}"));
+    let uses = |graph: Graph| {
+        let found = requests_of(graph, &mut |effect| honest(effect, |_| Some(false)));
+        found.iter().filter(|request| request.contains("use(")).count()
+    };
+    // Nothing is true that is not made: so a step starts only where its guard trusts what was seen.
+    for (steps, count) in [
+        ("peek(a) use(a)", 1),
+        ("peek(a) pass() use(a)", 1),
+        ("peek(a) wave() use(a)", 0),
+        ("peek(a) lift(a) use(a)", 0),
+        ("peek(a) make(a) wave() use(a)", 1),
+        ("parallel { { peek(a) } { wave() } } use(a)", 0),
+        ("parallel { { peek(a) } { pass() wave() } } use(a)", 0),
+    ] {
+        assert_eq!(uses(graph(steps)), count, "{steps}");
+    }
+    let mut engine = Engine::new(graph("peek(a) pass()"), &StartState::default()).unwrap();
+    let mut out = Vec::new();
+    engine.handle(Time::ZERO, Event::Begin, &mut out);
+    let first = out.iter().find_map(|effect| match effect {
+        Effect::Start { goal, .. } => Some(*goal),
+        _ => None,
+    });
+    let ended = DriverEvent::Ended { goal: first.unwrap(), outcome: Outcome::Success(None) };
+    engine.handle(Time::from_secs(1.0), Event::Driver(ended), &mut out);
+    let known = engine.snapshot();
+    let [lasting] = known.lasting.as_slice() else { panic!("{known:?}") };
+    assert_eq!(
+        (lasting.uses.as_slice(), lasting.entities.as_slice()),
+        (&["base".into()][..], &["a".into()][..])
+    );
+    let state = InitialState {
+        facts: known.state().into_iter().map(|(fact, holds)| (fact, (holds, Span::default()))).collect(),
+        lasting: vec![FactLifetime {
+            fact: "f(a)".to_owned(),
+            uses: lasting.uses.clone(),
+            entities: lasting.entities.clone(),
+        }],
+        ..InitialState::default()
+    };
+    let mut sources = Sources::default();
+    let domain = Source::new("domain", format!("{DOMAIN}{declared}"));
+    let domains = [motet_syntax::read(&domain, FileId(98)).file];
+    let session = Session::builder().domains(&domains).state(&state).build(&mut sources);
+    for (steps, verdict, count) in
+        [("pass() use(a)", Verdict::Proven, 1), ("wave() use(a)", Verdict::Deferred, 0)]
+    {
+        let source = Source::new("p.motet", format!("policy p {{ {steps} }}"));
+        let graph = session.compile(&motet_syntax::read(&source, FileId(99)), None).graph.unwrap();
+        let last = graph.nodes.iter().rev().find_map(|node| match &node.kind {
+            NodeKind::Call(call) => call.needs.first(),
+            _ => None,
+        });
+        assert_eq!(last.unwrap().verdict, verdict, "{steps}");
+        let found = requests_from(graph, &known.start_state(), &mut |effect| honest(effect, |_| Some(false)));
+        assert_eq!(found.iter().filter(|request| request.contains("use(")).count(), count, "{found:?}");
+    }
 }

@@ -133,6 +133,9 @@ fn call(names: &Names<'_>, call: &CallNode, level: usize, out: &mut String) {
     for unsettled in &call.unsettles {
         line(out, level, &format!("unsettles {}", names.unsettled(unsettled)));
     }
+    if let Some(lifetime) = &call.lasts {
+        line(out, level, &format!("lasts until {}", names.lifetime(lifetime)));
+    }
 }
 
 fn verdict(verdict: Verdict) -> &'static str {

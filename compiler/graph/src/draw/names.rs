@@ -2,8 +2,8 @@
 
 use crate::model::{
     BindingId, CallEffect, CallNode, Condition, Ending, Fact, FactArg, FailureId, Graph, Handler, KindId,
-    Manner, Motion, Need, NodeKind, Param, ParamDefault, Reaction, Term, TextPart, Type, Unsettled, Value,
-    Watch,
+    Lifetime, Manner, Motion, Need, NodeKind, Param, ParamDefault, Reaction, ResourceId, Term, TextPart,
+    Type, Unsettled, Value, Watch,
 };
 use crate::spoken::in_unit;
 
@@ -170,6 +170,14 @@ impl<'a> Names<'a> {
 
     pub(super) fn unsettled(&self, unsettled: &Unsettled) -> String {
         self.quantified(self.fact(&unsettled.fact), unsettled.each, unsettled.when.as_ref())
+    }
+
+    /// Resources and entities that end a lifetime.
+    pub(super) fn lifetime(&self, lifetime: &Lifetime) -> String {
+        let named =
+            |id: &ResourceId| self.0.resources.get(id.index()).map_or(NOBODY, |it| &it.name).to_owned();
+        let entities = lifetime.entities.iter().map(|entity| self.term(entity));
+        lifetime.uses.iter().map(named).chain(entities).collect::<Vec<_>>().join(", ")
     }
 
     fn quantified(&self, mut text: String, each: Option<KindId>, when: Option<&Condition>) -> String {

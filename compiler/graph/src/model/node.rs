@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 
 use super::{
-    BindingId, Condition, DurationBounds, Fact, FailureId, KindId, NodeId, PrimitiveId, RegionId, Term,
+    BindingId, Condition, DurationBounds, Fact, FailureId, KindId, NodeId, PrimitiveId, RegionId, ResourceId,
+    Term,
 };
 
 /// A list of nodes with one thread of control.
@@ -253,6 +254,19 @@ pub struct CallNode {
     pub effects: Vec<CallEffect>,
     /// Facts that become unknown at the start; after a failure also the facts of `effects`.
     pub unsettles: Vec<Unsettled>,
+    /// Lifetime of `effects`, of a perception; absent where they last.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lasts: Option<Lifetime>,
+}
+
+/// Lifetime of facts that a perception makes. After its end they are unknown.
+#[derive(Clone, PartialEq, Debug, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Lifetime {
+    /// Resources whose use ends it, with all that conflict with them.
+    pub uses: Vec<ResourceId>,
+    /// Entities: an action ends it whose `effects` or `unsettles` have one of them as the first argument.
+    pub entities: Vec<Term>,
 }
 
 /// Manner of a motion: the parts of the robot's greatest speed and acceleration that it may use.

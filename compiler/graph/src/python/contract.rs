@@ -7,8 +7,8 @@ use serde_json::json;
 use super::term::quoted;
 use super::writer::{Writer, identifier};
 use crate::model::{
-    CallEffect, CallNode, Condition, Fact, FactArg, KindId, Need, Node, NodeId, Term, TextPart, Unsettled,
-    Verdict,
+    CallEffect, CallNode, Condition, Fact, FactArg, KindId, Need, Node, NodeId, ResourceId, Term, TextPart,
+    Unsettled, Verdict,
 };
 
 /// Name of the result of a call in its own contract.
@@ -44,6 +44,16 @@ impl Writer<'_> {
         for (part, entries) in parts.into_iter().filter(|(_, entries)| !entries.is_empty()) {
             let entries: String = entries.iter().map(|entry| format!("            {entry},\n")).collect();
             text.push_str(&format!("        {part}=(\n{entries}        ),\n"));
+        }
+        if let Some(lifetime) = &call.lasts {
+            let named = |id: &ResourceId| self.graph.resources.get(id.index()).map(|it| quoted(&it.name));
+            let uses: String = lifetime.uses.iter().filter_map(named).map(|it| it + ", ").collect();
+            let of: String = lifetime.entities.iter().map(|it| self.term(it, None) + ", ").collect();
+            for (part, entries) in [("until_used", uses), ("until_moved", of)] {
+                if !entries.is_empty() {
+                    text.push_str(&format!("        {part}=({}),\n", entries.trim_end()));
+                }
+            }
         }
         if let Some(motion) = &call.motion {
             let verdict = match motion.verdict {
@@ -107,7 +117,8 @@ impl Writer<'_> {
         let facts = call.effects.iter().map(|effect| &effect.fact);
         facts.chain(call.unsettles.iter().map(|one| &one.fact)).for_each(|fact| in_fact(fact, &mut used));
         let motions = call.motion.iter().flat_map(|motion| &motion.args);
-        motions.for_each(|arg| in_term(arg, &mut used));
+        let entities = call.lasts.iter().flat_map(|lifetime| &lifetime.entities);
+        motions.chain(entities).for_each(|arg| in_term(arg, &mut used));
         self.names.iter().zip(used).filter(|(_, is_used)| *is_used).map(|(name, _)| name.clone()).collect()
     }
 
@@ -180,6 +191,9 @@ impl Writer<'_> {
                 let mut declared = json!({"fails": failures.collect::<Vec<_>>(), "uses": uses});
                 if let (Some(result), Some(declared)) = (&primitive.result, declared.as_object_mut()) {
                     declared.insert("result".to_owned(), graph.type_name(result).into());
+                }
+                if let (true, Some(declared)) = (primitive.perceives, declared.as_object_mut()) {
+                    declared.insert("kind".to_owned(), "perception".into());
                 }
                 (&primitive.name, declared)
             })

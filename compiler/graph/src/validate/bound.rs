@@ -343,6 +343,8 @@ impl<'a> Walk<'a> {
             effect.when.iter().for_each(|when| self.condition(node, when));
             self.fact(node, &effect.fact);
         }
+        let entities = call.lasts.iter().flat_map(|lifetime| &lifetime.entities);
+        entities.for_each(|entity| self.term(node, entity));
     }
 
     fn fact(&mut self, node: &Node, fact: &'a Fact) {

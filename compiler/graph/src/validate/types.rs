@@ -131,6 +131,16 @@ impl Types<'_> {
                 types.fact(&unsettled.fact, 0);
             });
         }
+        if let Some(lifetime) = &call.lasts {
+            let unknown =
+                lifetime.uses.iter().find(|resource| resource.index() >= self.graph.resources.len());
+            if let Some(resource) = unknown {
+                self.say(InvalidReason::NoSuch { what: "resource", id: resource.0 });
+            }
+            for entity in &lifetime.entities {
+                self.term(entity, 0);
+            }
+        }
     }
 
     fn quantified(&mut self, each: Option<KindId>, check: impl FnOnce(&mut Self)) {

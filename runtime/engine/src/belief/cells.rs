@@ -5,6 +5,8 @@ use crate::query::{Answer, Pattern, Query, Reading};
 use crate::time::Time;
 use motet_graph::{FluentId, Graph, Value};
 use rustc_hash::{FxHashMap, FxHasher};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
@@ -71,6 +73,17 @@ pub(crate) struct Facts {
     pub(crate) observable: bool,
 }
 
+/// Fact that a perception has made, with its lifetime. After its end the fact is unknown.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PerceivedFact {
+    pub fact: Query,
+    /// Names of the resources whose use ends it.
+    pub uses: Vec<SmolStr>,
+    /// Entities: an action that changes something about one of them ends it.
+    pub entities: Vec<SmolStr>,
+}
+
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Beliefs {
     pub(crate) entities: Entities,
@@ -81,6 +94,8 @@ pub(crate) struct Beliefs {
     pub(crate) observations: u64,
     /// The number of the observation that is being taken in; 0 where there is none.
     pub(super) observing: u64,
+    /// Facts that last only so long, in the order in which they were made.
+    pub(crate) lasting: Vec<PerceivedFact>,
     /// Cells that are watched and that the effects of one call have changed so far, with what was seen.
     pub(super) watched: Vec<(CellId, Answer)>,
     cells: Vec<Cell>,

@@ -3,8 +3,8 @@
 //! A pattern write covers all facts that fit it, also those that nobody has asked for yet; a later write
 //! wins. A cell that has `any` itself says whether some entity fits.
 
-use super::cells::{Beliefs, CellId, PatternWrite};
-use crate::query::{Answer, Pattern, Truth};
+use super::cells::{Beliefs, CellId, PatternWrite, PerceivedFact};
+use crate::query::{Answer, Pattern, Query, Truth};
 use crate::time::Time;
 use smol_str::SmolStr;
 
@@ -19,6 +19,14 @@ pub(crate) struct BeliefChange {
     pub(crate) sure: bool,
     /// True if a pattern is meant only of facts that have no cell: of what nobody has asked for yet.
     pub(crate) rest: bool,
+}
+
+impl PerceivedFact {
+    /// True if a write is about this fact, or about all that it is about.
+    fn is_covered(&self, change: &BeliefChange) -> bool {
+        let Query::Fact { fluent, args } = &self.fact else { return false };
+        *fluent == change.fluent && covers(&change.args, args)
+    }
 }
 
 /// Relation of the beliefs to a claimed fact.
@@ -59,7 +67,7 @@ impl Beliefs {
             return false;
         };
         let single = |id: CellId| match (&*self.cell(id)?.query, truth_of(&self.cell(id)?.answer)) {
-            (crate::query::Query::Fact { args, .. }, truth) if !args.contains(&Pattern::Any) => Some(truth),
+            (Query::Fact { args, .. }, truth) if !args.contains(&Pattern::Any) => Some(truth),
             _ => None,
         };
         let mut maybe = self.covered(fluent, args).filter_map(single).filter(|truth| *truth != Truth::False);
@@ -102,7 +110,7 @@ impl Beliefs {
         let is_written = |id: &CellId| self.cell(*id).is_some_and(|cell| cell.written);
         let is_meant = |id: &CellId| {
             self.cell(*id).is_some_and(|cell| match &*cell.query {
-                crate::query::Query::Fact { args, .. } => !others.contains(&args.as_slice()),
+                Query::Fact { args, .. } => !others.contains(&args.as_slice()),
                 _ => true,
             })
         };
@@ -132,6 +140,9 @@ impl Beliefs {
 
     /// Makes a change. All who depend on what becomes different are noted.
     pub(crate) fn apply(&mut self, change: &BeliefChange, now: Time) {
+        if !self.lasting.is_empty() && change.sure && !change.rest {
+            self.lasting.retain(|lasting| !lasting.is_covered(change));
+        }
         if change.args.contains(&Pattern::Any) {
             self.write_wide(change, now);
         } else {
@@ -161,7 +172,7 @@ impl Beliefs {
         // Of what its driver cannot tell, it does not report the changes.
         cell.live = cell.watchers > 0 && answer != Answer::Unknown;
         let query = cell.query.clone();
-        if let crate::query::Query::Fact { fluent, args } = &*query {
+        if let Query::Fact { fluent, args } = &*query {
             let value = truth_of(&answer);
             if value == Truth::Unknown && cell.watchers == 0 {
                 // Nobody can tell now: what was believed stands.
@@ -226,14 +237,14 @@ impl Beliefs {
     fn covered<'a>(&'a self, fluent: &str, args: &'a [Pattern]) -> impl Iterator<Item = CellId> + 'a {
         let cells = self.fluents.get(fluent).map_or(&[][..], |facts| &facts.cells);
         cells.iter().copied().filter(move |id| {
-            self.cell(*id).is_some_and(|cell| {
-                matches!(&*cell.query, crate::query::Query::Fact { args: own, .. } if covers(args, own))
-            })
+            self.cell(*id).is_some_and(
+                |cell| matches!(&*cell.query, Query::Fact { args: own, .. } if covers(args, own)),
+            )
         })
     }
 
     fn write_one(&mut self, change: &BeliefChange, now: Time) {
-        let query = crate::query::Query::Fact { fluent: change.fluent.clone(), args: change.args.clone() };
+        let query = Query::Fact { fluent: change.fluent.clone(), args: change.args.clone() };
         let id = self.intern(query);
         let old = self.cell(id).map_or(Truth::Unknown, |cell| truth_of(&cell.answer));
         let new = if change.sure { change.value } else { old.joined(change.value) };
@@ -270,7 +281,7 @@ impl Beliefs {
         let mut touched = Vec::new();
         for id in &facts.patterns {
             let Some(cell) = self.cell(*id) else { continue };
-            let crate::query::Query::Fact { args, .. } = &*cell.query else { continue };
+            let Query::Fact { args, .. } = &*cell.query else { continue };
             if !overlaps(&change.args, args) {
                 continue;
             }

@@ -8,6 +8,7 @@ mod entities;
 mod evaluator;
 mod facts;
 
+pub use cells::PerceivedFact;
 pub(crate) use cells::{Beliefs, Cell, CellId, Facts};
 pub(crate) use entities::{Entities, OfKind};
 pub(crate) use evaluator::{Evaluator, Freshness, hand};

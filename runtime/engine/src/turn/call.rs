@@ -59,7 +59,10 @@ impl Turn<'_> {
         } else if !self.reserve(step) {
             self.enqueue(node);
         } else if let Some(command) = step.command.as_ref().filter(|_| {
-            step.is_ready && !self.run.is_unproven && !self.run.nodes.at(node.index()).begins_again
+            step.is_ready
+                && !self.run.is_unproven
+                && !self.run.nodes.at(node.index()).begins_again
+                && self.run.beliefs.lasting.is_empty()
         }) {
             self.launch(node, step, command.clone());
         } else {
@@ -276,7 +279,7 @@ impl Turn<'_> {
                 self.report(move || TraceEventKind::Guard { node, need: index as u32, truth: Truth::True });
             }
         }
-        if !call.unsettles.is_empty() {
+        if !call.unsettles.is_empty() || !self.run.beliefs.lasting.is_empty() {
             self.unsettle(call);
         }
     }

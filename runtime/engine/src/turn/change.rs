@@ -1,10 +1,13 @@
 //! Belief changes of calls: effects after success, doubt after every other outcome.
 
 use super::Turn;
-use crate::belief::{BeliefChange, Beliefs, Evaluator, Freshness, OfKind};
-use crate::query::{Pattern, Truth};
+use crate::belief::{BeliefChange, Beliefs, Evaluator, Freshness, OfKind, PerceivedFact};
+use crate::query::{Pattern, Query, Truth};
 use crate::time::Time;
-use motet_graph::{CallNode, Condition, Fact, FactArg, FluentId, Graph, KindId, Need, NodeId, Term, Value};
+use motet_graph::{
+    CallNode, Condition, Fact, FactArg, FluentId, Graph, KindId, Lifetime, Need, NodeId, ResourceId, Term,
+    Value,
+};
 use smol_str::SmolStr;
 
 /// An entry of `makes` or `unsettles`.
@@ -48,40 +51,65 @@ pub(super) struct Contracts<'a> {
     pub(super) begun: u64,
     /// Changes that other calls which run may make at any moment.
     pub(super) busy: Vec<BeliefChange>,
+    /// What these calls end.
+    pub(super) ends: Vec<LifetimeEnd>,
+}
+
+/// What a call uses and moves: that ends the lifetimes of perceived facts.
+pub(super) struct LifetimeEnd {
+    uses: Vec<SmolStr>,
+    moves: Vec<SmolStr>,
+}
+
+impl LifetimeEnd {
+    fn ends(&self, fact: &PerceivedFact) -> bool {
+        self.uses.iter().any(|resource| fact.uses.contains(resource))
+            || self.moves.iter().any(|entity| fact.entities.contains(entity))
+    }
 }
 
 impl Turn<'_> {
     /// Applies a call's declared effects.
     pub(super) fn make(&mut self, node: NodeId) {
         let plan = self.plan;
-        if let Some(call) =
-            plan.call(node).filter(|call| !call.effects.is_empty() || !call.unsettles.is_empty())
-        {
-            let busy = self.busy(Some(node), call);
-            Contracts { busy, ..self.contracts_at(node) }.make(call);
+        let Some(call) = plan.call(node) else { return };
+        let ends_lifetimes = !self.run.beliefs.lasting.is_empty();
+        if ends_lifetimes || !call.effects.is_empty() || !call.unsettles.is_empty() {
+            let (busy, ends) = self.busy(Some(node), call);
+            Contracts { busy, ends, ..self.contracts_at(node) }.make(call);
         }
     }
 
-    /// Changes that the other calls which run may make, if conditions of a call are judged by them: calls of
-    /// this policy, and of those before it.
-    pub(super) fn busy(&mut self, node: Option<NodeId>, call: &CallNode) -> Vec<BeliefChange> {
+    /// Changes that the other calls which run may make, if conditions of a call are judged by them, and what
+    /// they end, if its facts have a lifetime: calls of this policy, and of those before it.
+    pub(super) fn busy(
+        &mut self,
+        node: Option<NodeId>,
+        call: &CallNode,
+    ) -> (Vec<BeliefChange>, Vec<LifetimeEnd>) {
         let mut conditions = call.effects.iter().map(|effect| &effect.when);
-        if conditions.all(Option::is_none) && call.unsettles.iter().all(|entry| entry.when.is_none()) {
-            return Vec::new();
+        let has_conditions =
+            conditions.any(Option::is_some) || call.unsettles.iter().any(|entry| entry.when.is_some());
+        let (mut busy, mut ends) = (Vec::new(), Vec::new());
+        if !has_conditions && call.lasts.is_none() {
+            return (busy, ends);
         }
         let plan = self.plan;
         let others = self.run.goals.live().into_iter().map(|(_, other)| other);
         let others: Vec<_> = others.filter(|other| Some(*other) != node).collect();
-        let mut busy = Vec::new();
         for call in others.into_iter().filter_map(|other| plan.call(other)) {
-            self.contracts().expand_all(call, &mut busy);
+            let mut contracts = self.contracts();
+            contracts.expand_all(call, &mut busy);
+            ends.push(contracts.end_of(call));
         }
         for orphan in self.run.orphans.clone() {
             if let Some(call) = orphan.plan.call(orphan.node) {
-                self.contracts_of(&orphan).expand_all(call, &mut busy);
+                let mut contracts = self.contracts_of(&orphan);
+                contracts.expand_all(call, &mut busy);
+                ends.push(contracts.end_of(call));
             }
         }
-        busy
+        (busy, ends)
     }
 
     /// Applies what a call unsettles as soon as it starts.
@@ -111,6 +139,7 @@ impl Turn<'_> {
             now: self.run.now,
             begun: u64::MAX,
             busy: Vec::new(),
+            ends: Vec::new(),
         }
     }
 
@@ -159,6 +188,10 @@ impl Turn<'_> {
     }
 }
 
+fn entity(value: Value) -> Option<SmolStr> {
+    if let Value::Entity(id) = value { Some(id) } else { None }
+}
+
 impl Contracts<'_> {
     /// Applies the effects of a successful call. What it unsettles stays unknown until its end: an
     /// observation in between does not count, and the result has a name only now.
@@ -174,10 +207,33 @@ impl Contracts<'_> {
         // What is both made and unmade is made.
         changes.sort_by_key(|change| change.value == Truth::True);
         self.apply(&changes);
+        if let Some(lifetime) = &call.lasts {
+            self.limit(&changes, lifetime);
+        }
     }
 
-    /// Makes the facts unknown that the start of a call unsettles.
+    /// Gives a lifetime to what a perception has made.
+    fn limit(&mut self, changes: &[BeliefChange], lifetime: &Lifetime) {
+        let uses = self.names(&lifetime.uses);
+        let mut judge = self.judge(None);
+        let entities = lifetime.entities.iter().filter_map(|term| entity(judge.term(term)?));
+        let entities: Vec<SmolStr> = entities.collect();
+        // The last change of a fact is the one that stands.
+        for BeliefChange { fluent, args, .. } in changes.iter().filter(|change| change.sure) {
+            let fact = Query::Fact { fluent: fluent.clone(), args: args.clone() };
+            let lasting = &mut self.beliefs.lasting;
+            if lasting.iter().all(|known| known.fact != fact) {
+                lasting.push(PerceivedFact { fact, uses: uses.clone(), entities: entities.clone() });
+            }
+        }
+        for end in std::mem::take(&mut self.ends) {
+            self.end(&end);
+        }
+    }
+
+    /// Makes the facts unknown that the start of a call unsettles, and those whose lifetime it ends.
     pub(super) fn unsettle(&mut self, call: &CallNode) {
+        self.end_lifetimes(call);
         let mut changes = Vec::new();
         self.expand_unsettled(call, &mut changes);
         self.apply(&changes);
@@ -185,12 +241,51 @@ impl Contracts<'_> {
 
     /// Makes all facts unknown that a call may have changed, after any outcome but success.
     pub(super) fn doubt(&mut self, call: &CallNode) {
+        self.end_lifetimes(call);
         if call.effects.is_empty() && call.unsettles.is_empty() {
             return;
         }
         let mut changes = Vec::new();
         self.expand_all(call, &mut changes);
         self.apply(&changes);
+    }
+
+    fn end_lifetimes(&mut self, call: &CallNode) {
+        if !self.beliefs.lasting.is_empty() {
+            let end = self.end_of(call);
+            self.end(&end);
+        }
+    }
+
+    fn end(&mut self, end: &LifetimeEnd) {
+        let over = |fact: &mut PerceivedFact| end.ends(fact);
+        for PerceivedFact { fact, .. } in self.beliefs.lasting.extract_if(.., over).collect::<Vec<_>>() {
+            if let Query::Fact { fluent, args } = fact {
+                let value = Truth::Unknown;
+                self.apply(&[BeliefChange { fluent, args, value, sure: true, rest: false }]);
+            }
+        }
+    }
+
+    /// What a call uses, and what an action moves: the first arguments of what it changes.
+    fn end_of(&mut self, call: &CallNode) -> LifetimeEnd {
+        let graph = self.graph;
+        let primitive = graph.primitives.get(call.primitive.index());
+        let uses = self.names(primitive.map_or(&[], |primitive| &primitive.uses));
+        let facts = call.effects.iter().map(|effect| &effect.fact);
+        let facts = facts.chain(call.unsettles.iter().map(|unsettled| &unsettled.fact));
+        let mut judge = self.judge(None);
+        let moves = facts.filter(|_| primitive.is_some_and(|primitive| !primitive.perceives));
+        let moves = moves.filter_map(|fact| match fact.args.first()? {
+            FactArg::Term(term) => entity(judge.term(term)?),
+            FactArg::Any => None,
+        });
+        LifetimeEnd { uses, moves: moves.collect() }
+    }
+
+    fn names(&self, resources: &[ResourceId]) -> Vec<SmolStr> {
+        let named = |id: &ResourceId| Some(self.graph.resources.get(id.index())?.name.clone());
+        resources.iter().filter_map(named).collect()
     }
 
     /// Works out all that a call may change, as unknown.

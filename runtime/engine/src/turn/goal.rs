@@ -224,7 +224,8 @@ impl Turn<'_> {
     #[inline(always)]
     fn goal_succeeded(&mut self, node: NodeId, goal: GoalId, value: Option<Value>) {
         let plan = self.plan;
-        let is_silent = plan.step(node).is_silent && self.run.left.is_empty();
+        let is_silent =
+            plan.step(node).is_silent && self.run.left.is_empty() && self.run.beliefs.lasting.is_empty();
         if is_silent && self.is_quiet() && self.run.clearing.is_empty() {
             // The common case, without a detour over the work list. What waits for this goal to end has its
             // own place there.

@@ -237,8 +237,8 @@ impl Turn<'_> {
         self.run.goals.close(orphan.goal);
         self.run.freed = !self.run.queue.is_empty();
         let call = orphan.plan.call(orphan.node);
-        let busy = call.map(|call| self.busy(None, call)).unwrap_or_default();
-        let mut contracts = Contracts { busy, ..self.contracts_of(&orphan) };
+        let (busy, ends) = call.map(|call| self.busy(None, call)).unwrap_or_default();
+        let mut contracts = Contracts { busy, ends, ..self.contracts_of(&orphan) };
         match ending {
             NodeEnding::Success => {
                 contracts.make_node(&orphan);
@@ -277,6 +277,7 @@ impl Turn<'_> {
             bindings: &orphan.bindings,
             beliefs: &mut self.run.beliefs,
             busy: Vec::new(),
+            ends: Vec::new(),
             now: self.run.now,
             begun: orphan.seen,
         }

@@ -3,8 +3,8 @@
 use motet_graph::{Manner, NodeId, Pose, Value};
 use motet_runtime::{
     Answer, CheckId, Command, DeferredMotion, DriverEvent, Effect, EndCause, Event, FailureReport, Fault,
-    GoalId, NodeEnding, Outcome, Pattern, PendingCleanup, Query, RunEnd, Time, TraceEvent, TraceEventKind,
-    Truth, Verification, journal,
+    GoalId, NodeEnding, Outcome, Pattern, PendingCleanup, PerceivedFact, Query, RunEnd, Time, TraceEvent,
+    TraceEventKind, Truth, Verification, journal,
 };
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -263,9 +263,14 @@ fn wire_form_keeps_its_bytes() {
     }
     let start = motet_runtime::StartState {
         facts: vec![(fact.clone(), Truth::Unknown)],
-        some: vec![fact],
+        some: vec![fact.clone()],
         entities: vec![("mug".into(), "Object".into())],
         bindings: vec![("drink".into(), Value::Int(3))],
+        lasting: vec![PerceivedFact {
+            fact: fact.clone(),
+            uses: vec!["base".into()],
+            entities: vec!["mug".into()],
+        }],
         pending: vec![PendingCleanup { path: "/steps/0".into(), steps: vec!["close(drawer)".into()] }],
     };
     lines.push(serde_json::to_string(&start).unwrap());

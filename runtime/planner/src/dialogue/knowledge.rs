@@ -2,12 +2,13 @@
 //! the state of the next check, and the start of the next run, come from it.
 
 use indexmap::IndexMap;
-use motet_compiler::{InitialFact, InitialState, Session};
+use motet_compiler::{FactLifetime, InitialFact, InitialState, Session};
 use motet_graph::{CallNode, Graph, Node, NodeKind, Value};
 use motet_requests::{Preference, ReportedLocation, RequestContext};
 use motet_robots::scene::{Entity, EntityShape, Grip, Placement, Scene, Travel};
 use motet_runtime::{
-    Engine, Pattern, PendingCleanup, Query, Snapshot, StartState, ToldSupport, ToldThing, Truth,
+    Engine, Pattern, PendingCleanup, PerceivedFact, Query, Snapshot, StartState, ToldSupport, ToldThing,
+    Truth,
 };
 use motet_stdlib::lang::{self, PLACING, entities, fluents, kinds};
 use motet_syntax::{Span, print};
@@ -22,6 +23,8 @@ pub struct Knowledge {
     /// Facts in order: a later fact wins, and a fact with `any` is about every entity.
     pub(super) facts: Vec<(Query, Truth)>,
     some: Vec<Query>,
+    /// Facts among these that last only so long.
+    lasting: Vec<PerceivedFact>,
     /// Cleanups of policies that are over, which have not run to their end.
     pending: Vec<PendingCleanup>,
     /// Entities that were mentioned, the latest last.
@@ -74,6 +77,8 @@ impl Knowledge {
         self.facts.extend(snapshot.facts);
         self.some.retain(|query| !speaks(query));
         self.some.extend(snapshot.some);
+        self.lasting.retain(|lasting| !speaks(&lasting.fact));
+        self.lasting.extend(snapshot.lasting);
         self.pending = snapshot.pending;
         let mut missed = std::mem::take(&mut self.missed);
         missed.retain(|one| self.told(fluents::VISIBLE, &one.thing) != Some(Truth::True));
@@ -262,7 +267,11 @@ impl Knowledge {
             };
             facts.insert(text, (known, Span::default()));
         }
-        InitialState { facts, grip: self.grip.clone() }
+        let lasting = self.lasting.iter().filter_map(|lasting| {
+            let PerceivedFact { fact, uses, entities } = lasting;
+            Some(FactLifetime { fact: text(fact)?, uses: uses.clone(), entities: entities.clone() })
+        });
+        InitialState { facts, grip: self.grip.clone(), lasting: lasting.collect() }
     }
 
     /// Start of the next run, whose policy was checked in `session`: the session's facts, of which a graph
@@ -277,6 +286,7 @@ impl Knowledge {
         StartState {
             facts: given.chain(self.facts.iter().cloned()).collect(),
             some: self.some.clone(),
+            lasting: self.lasting.clone(),
             entities: entities.collect(),
             pending: self.pending.clone(),
             ..StartState::default()

@@ -50,6 +50,7 @@ fn policy(calls: &[(&str, &[(&str, Option<Value>)])], retries: u32) -> Graph {
             motion: None,
             effects: Vec::new(),
             unsettles: Vec::new(),
+            lasts: None,
         }),
     });
     Graph {

@@ -224,6 +224,7 @@ impl Layout {
             motion: None,
             effects: contract.effects,
             unsettles: contract.unsettles,
+            lasts: None,
         }
     }
 
