@@ -1,6 +1,7 @@
 //! Heuristic of the planner: additive costs (Bonet and Geffner 2001) over the calls that achieve what a goal
 //! lacks, computed backwards from the goal in the present state. The applicable calls at the ends of these
-//! chains are the helpful actions (Hoffmann and Nebel 2001) that the search tries.
+//! chains are the helpful actions (Hoffmann and Nebel 2001) that the search tries. Each is expected to save
+//! the costs of the subgoals that it achieves.
 
 use rustc_hash::FxHashMap;
 
@@ -26,16 +27,19 @@ const BOTHER: u32 = 250;
 const GUARD: u32 = 300;
 /// Cost of a guard if a perception could decide.
 const UNSEEN: u32 = 1_000;
-/// Maximal number of calls that are estimated for one state.
-const EFFORT: u32 = 1_000;
 /// Maximal depth of needs of needs.
 const DEPTH: usize = 14;
+
+/// Subgoals of an estimate, as bits at their places; those after the first 64 have none.
+type Subgoals = u64;
 
 /// Cost of a goal: calls to make, and needs left to guards.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 struct Cost {
     calls: u32,
     guards: u32,
+    /// Subgoals on the way.
+    subgoals: Subgoals,
 }
 
 impl Cost {
@@ -43,58 +47,127 @@ impl Cost {
         self.calls.saturating_add(self.guards)
     }
 
+    const fn guard(guards: u32) -> Self {
+        Self { calls: 0, guards, subgoals: 0 }
+    }
+
     const fn and(self, other: Self) -> Self {
         Self {
             calls: self.calls.saturating_add(other.calls),
             guards: self.guards.saturating_add(other.guards),
+            subgoals: self.subgoals | other.subgoals,
         }
     }
 }
 
 /// An applicable call.
 #[derive(Clone, Debug)]
-pub(super) struct Ready {
+pub(crate) struct Ready {
     pub(super) call: CandidateCall,
     /// Cost of the call, with its guards.
     pub(super) cost: u32,
+    /// Expected cost of what the target lacks after the call.
+    pub(super) missing: u32,
+    /// Subgoals that it achieves.
+    serves: Subgoals,
+}
+
+/// Needs that a search has to meet.
+#[derive(Clone, Copy)]
+pub(crate) struct Target<'t> {
+    pub(crate) needs: &'t [NeedDef],
+    pub(crate) frame: CallFrame<'t>,
+    pub(crate) purpose: Purpose,
+}
+
+impl Target<'_> {
+    /// Returns whether the needs are met in the present state.
+    pub(super) fn is_met(&self, prover: &Prover<'_>) -> bool {
+        self.needs.iter().all(|need| self.purpose.is_met(prover.need(need, self.frame).0))
+    }
+}
+
+/// Purpose of a search.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Purpose {
+    /// A plan: its goal is proven.
+    Plan,
+    /// A repair: no need is refuted, and what is unknown is left to guards.
+    Repair,
+}
+
+impl Purpose {
+    fn is_met(self, value: TruthSet) -> bool {
+        !value.no.is_some() && (self == Self::Repair || !value.open.is_some())
+    }
 }
 
 /// Estimate of one state.
-pub(super) struct Estimate<'p, 'a> {
+pub(crate) struct Estimate<'p, 'a> {
     prover: &'p Prover<'a>,
+    target: Target<'p>,
     known: FxHashMap<Subgoal, Cost>,
     /// Subgoals on the present chain: a fact that needs itself cannot be achieved.
     asked: Vec<Subgoal>,
-    effort: u32,
+    /// Costs of the subgoals, in the order in which they were asked.
+    costs: Vec<u32>,
+    /// Number of calls that may still be estimated.
+    left: &'p mut usize,
     /// Applicable calls, in the order of discovery.
-    pub(super) ready: Vec<Ready>,
+    ready: Vec<Ready>,
+    /// Calls that achieve a fact of the target itself.
+    last: Vec<CandidateCall>,
     /// A need that cannot be met, with its distance from the goal: the nearest is the best explanation.
-    pub(super) dead: Option<String>,
+    dead: Option<String>,
     dead_at: usize,
 }
 
 impl<'p, 'a> Estimate<'p, 'a> {
-    pub(super) fn new(prover: &'p Prover<'a>) -> Self {
+    pub(crate) fn new(prover: &'p Prover<'a>, target: Target<'p>, left: &'p mut usize) -> Self {
         Self {
             prover,
+            target,
             known: FxHashMap::default(),
             asked: Vec::new(),
-            effort: EFFORT,
+            costs: Vec::new(),
+            left,
             ready: Vec::new(),
+            last: Vec::new(),
             dead: None,
             dead_at: 0,
         }
     }
 
-    /// Cost of reaching a goal; `None` if no call reaches it.
-    pub(super) fn goal(&mut self, goal: &Condition) -> Option<u32> {
-        self.condition(goal, true, CallFrame::default()).map(Cost::sum)
+    /// Cost of what the target lacks, with the applicable calls on the way there. Fails if no call leads
+    /// there, with the need that cannot be met if one is known.
+    pub(super) fn lacking(mut self) -> Result<(u32, Vec<Ready>), Option<String>> {
+        let Target { needs, frame, .. } = self.target;
+        let costs: Vec<_> = needs.iter().map(|need| self.need(need, frame)).collect();
+        let all = costs.into_iter().try_fold(Cost::default(), |all, cost| Some(all.and(cost?)));
+        let Some(all) = all else { return Err(self.dead) };
+        for ready in &mut self.ready {
+            let served = ready.serves & all.subgoals;
+            let costs = self.costs.iter().enumerate().filter(|(place, _)| bit(*place) & served != 0);
+            ready.missing = costs.fold(all.sum(), |missing, (_, cost)| missing.saturating_sub(*cost));
+        }
+        Ok((all.sum(), self.ready))
+    }
+
+    /// Calls that achieve the first need that is not met, and whose own needs may be unmet.
+    pub(crate) fn last_calls(mut self) -> Vec<CandidateCall> {
+        for need in self.target.needs {
+            self.need(need, self.target.frame);
+            if !self.last.is_empty() {
+                break;
+            }
+        }
+        self.last
     }
 
     fn condition(&mut self, condition: &Condition, truth: bool, frame: CallFrame<'_>) -> Option<Cost> {
         let value = self.prover.evaluate(condition, frame);
         let value = if truth { value } else { value.not() };
-        if !value.no.is_some() && !value.open.is_some() {
+        if self.target.purpose.is_met(value) {
             return Some(Cost::default());
         }
         match condition {
@@ -142,7 +215,7 @@ impl<'p, 'a> Estimate<'p, 'a> {
         // That none holds: each that may hold has to go.
         let held = prover.may_hold(fact.fluent, key);
         if held.is_empty() && !value.no.is_some() {
-            return Some(Cost { calls: 0, guards: GUARD });
+            return Some(Cost::guard(GUARD));
         }
         held.into_iter().try_fold(Cost::default(), |all, (key, value)| {
             Some(all.and(self.subgoal((fact.fluent, key, false), value.not())?))
@@ -157,17 +230,25 @@ impl<'p, 'a> Estimate<'p, 'a> {
             return None;
         }
         self.asked.push(subgoal);
+        let place = self.costs.len();
+        self.costs.push(0);
         let achievers = self.prover.achievers(subgoal);
-        let costs: Vec<_> = achievers.iter().map(|achiever| self.achiever(achiever)).collect();
+        if self.asked.len() == 1 {
+            self.last.extend(achievers.iter().map(|achiever| achiever.call.clone()));
+        }
+        let costs: Vec<_> = achievers.iter().map(|achiever| self.achiever(achiever, place)).collect();
         let guard = (!value.no.is_some()).then(|| {
             let is_seen = self.prover.library.perceived.contains(&subgoal.0);
-            Cost { calls: 0, guards: if is_seen { UNSEEN } else { GUARD } }
+            Cost::guard(if is_seen { UNSEEN } else { GUARD })
         });
         let best = costs.into_iter().chain([guard]).flatten().min_by_key(|cost| cost.sum());
         self.asked.pop();
         match best {
-            Some(best) => {
+            Some(mut best) => {
+                best.subgoals |= bit(place);
+                self.costs.get_mut(place).into_iter().for_each(|cost| *cost = best.sum());
                 self.known.insert(subgoal, best);
+                return Some(best);
             }
             None if achievers.is_empty() => {
                 let (fluent, key, truth) = subgoal;
@@ -182,11 +263,11 @@ impl<'p, 'a> Estimate<'p, 'a> {
             }
             None => {}
         }
-        best
+        None
     }
 
-    fn achiever(&mut self, achiever: &Achiever<'_>) -> Option<Cost> {
-        self.effort = self.effort.checked_sub(1)?;
+    fn achiever(&mut self, achiever: &Achiever<'_>, place: usize) -> Option<Cost> {
+        *self.left = self.left.checked_sub(1)?;
         let Achiever { call, when, subgoal } = achiever;
         let def = self.prover.library.primitive(call.primitive)?;
         let frame = CallFrame { args: &call.args, result: call.result, each: None };
@@ -208,15 +289,21 @@ impl<'p, 'a> Estimate<'p, 'a> {
             .saturating_add(self.bothers(call, *subgoal))
             .saturating_add(self.shut_in(def, call))
             .saturating_add(found);
-        if before.calls == 0 && !self.ready.iter().any(|ready| ready.call == *call) {
-            self.ready.push(Ready { call: call.clone(), cost: own.saturating_add(before.guards) });
+        if before.calls == 0 {
+            match self.ready.iter_mut().find(|ready| ready.call == *call) {
+                Some(ready) => ready.serves |= bit(place),
+                None => {
+                    let cost = own.saturating_add(before.guards);
+                    self.ready.push(Ready { call: call.clone(), cost, missing: 0, serves: bit(place) });
+                }
+            }
         }
-        Some(before.and(Cost { calls: own, guards: 0 }))
+        Some(before.and(Cost { calls: own, ..Cost::default() }))
     }
 
     fn need(&mut self, need: &NeedDef, frame: CallFrame<'_>) -> Option<Cost> {
         let value = self.prover.need(need, frame).0;
-        if !value.no.is_some() && !value.open.is_some() {
+        if self.target.purpose.is_met(value) {
             return Some(Cost::default());
         }
         match need.each {
@@ -239,7 +326,7 @@ impl<'p, 'a> Estimate<'p, 'a> {
     /// Cost of a quantified need whose entities are unknown: of what settles it for all of them, or of a
     /// guard.
     fn whatever_else(&mut self, condition: &Condition, frame: CallFrame<'_>) -> Cost {
-        let guard = Cost { calls: 0, guards: GUARD };
+        let guard = Cost::guard(GUARD);
         let parts = match condition {
             Condition::AnyOf(parts) => parts.as_slice(),
             only => std::slice::from_ref(only),
@@ -294,6 +381,11 @@ impl<'p, 'a> Estimate<'p, 'a> {
             self.dead_at = self.asked.len();
         }
     }
+}
+
+/// Subgoal at a place.
+fn bit(place: usize) -> Subgoals {
+    u32::try_from(place).ok().and_then(|place| 1_u64.checked_shl(place)).unwrap_or(0)
 }
 
 /// Cost of arguments that are guesses.

@@ -9,8 +9,8 @@
 //! `tests/tests/it/planning.rs` and `eval/tests/it/planbench.rs`.
 
 pub(crate) mod achievers;
-mod estimate;
-mod search;
+pub(crate) mod estimate;
+pub(crate) mod search;
 
 use motet_syntax::ast::{Do, Expr, ExprKind};
 use motet_syntax::{Diagnostic, Span, Syntax};
@@ -18,17 +18,21 @@ use smol_str::SmolStr;
 use thiserror::Error;
 
 use crate::declare::elaborator::Elaborator;
-use crate::declare::{Library, PrimitiveDef};
+use crate::declare::{Library, NeedDef, PrimitiveDef};
 use crate::environment::Environment;
 use crate::facts::FactKey;
 use crate::ir::{Condition, Entity, Kind, MotionKind, Program};
 use crate::plan::achievers::CandidateCall;
+use crate::plan::estimate::{Purpose, Target};
+use crate::plan::search::Bounds;
 use crate::prove::Prover;
 use crate::prove::evaluation::CallFrame;
 use crate::session::Session;
 
 /// Default budget of a search, in states.
 pub const PLAN_BUDGET: usize = 600;
+/// Maximal number of estimated calls for each state of the budget, with the states that it leads to.
+const EFFORT: usize = 10_000;
 /// Maximal number of calls of a plan.
 pub const MAX_PLAN: usize = 200;
 
@@ -111,7 +115,9 @@ impl Session {
         let conditions = conditions.collect::<Result<Vec<_>, _>>()?;
         let program = Program::default();
         let mut prover = Prover::new(&program, library, environment);
-        let mut agenda = Agenda { calls: Vec::new(), of: Vec::new(), left: budget };
+        let left =
+            Bounds { states: budget, estimates: budget.saturating_mul(EFFORT), calls: MAX_PLAN, plans: 1 };
+        let mut agenda = Agenda { calls: Vec::new(), of: Vec::new(), left };
         let mut kept: Vec<Condition> = Vec::new();
         for (index, (condition, goal)) in conditions.iter().zip(goals).enumerate() {
             for part in parts(condition, goal.persistence) {
@@ -124,7 +130,7 @@ impl Session {
             }
         }
         agenda.tidy(&mut prover, kept, goals.len());
-        let expanded_states = budget.saturating_sub(agenda.left);
+        let expanded_states = budget.saturating_sub(agenda.left.states);
         let steps = agenda.write(&mut prover)?;
         Ok(Plan { steps, expanded_states })
     }
@@ -168,26 +174,28 @@ struct Agenda {
     calls: Vec<CandidateCall>,
     /// Goal of each call.
     of: Vec<usize>,
-    left: usize,
+    left: Bounds,
 }
 
 impl Agenda {
     fn reach(&mut self, prover: &mut Prover<'_>, goal: &Condition, index: usize) -> Result<(), NoPlan> {
-        let found = search::search(prover, &self.calls, goal, &mut self.left)?;
+        let needs = [NeedDef { condition: goal.clone(), each: None, when: None, span: Span::default() }];
+        let target = Target { needs: &needs, frame: CallFrame::default(), purpose: Purpose::Plan };
+        let shown = |prover: &Prover<'_>| prover.show(goal, true, CallFrame::default());
+        replay(prover, &self.calls);
+        let mut found = search::search(prover, target, &mut self.left)
+            .map_err(|blocker| NoPlan::Unreachable { goal: shown(prover), blocker })?;
+        let found = found.pop().ok_or_else(|| NoPlan::Budget { goal: shown(prover) })?;
         self.of.resize(self.of.len() + found.len(), index);
         self.calls.extend(found);
-        if self.calls.len() > MAX_PLAN {
-            Err(NoPlan::Budget { goal: prover.show(goal, true, CallFrame::default()) })
-        } else {
-            Ok(())
-        }
+        if self.calls.len() > MAX_PLAN { Err(NoPlan::Budget { goal: shown(prover) }) } else { Ok(()) }
     }
 
     /// Closes containers that the plan opened, unless a goal mentions them or would be lost. A thing in the
     /// hand stays in it: to put it down and to find it again risks more than a container that is open.
     fn tidy(&mut self, prover: &mut Prover<'_>, mut kept: Vec<Condition>, index: usize) {
         let Some(open) = prover.library.lang_items.open else { return };
-        search::replay(prover, &self.calls);
+        replay(prover, &self.calls);
         let in_hand = held(prover);
         let mut opened = Vec::new();
         prover.state.facts.entries(open, FactKey::ALL, |key, value| {
@@ -225,21 +233,21 @@ impl Agenda {
         first: usize,
     ) -> impl Iterator<Item = Option<SmolStr>> + 's {
         let (before, after) = self.calls.split_at(first.min(self.calls.len()));
-        search::replay(prover, before);
-        after.iter().enumerate().map(move |(offset, call)| {
-            search::apply(prover, before.len() + offset, call);
+        replay(prover, before);
+        after.iter().map(move |call| {
+            search::apply(prover, call);
             held(prover)
         })
     }
 
     fn write(&self, prover: &mut Prover<'_>) -> Result<Vec<PlannedStep>, NoPlan> {
-        search::replay(prover, &[]);
+        replay(prover, &[]);
         let mut steps = Vec::with_capacity(self.calls.len());
-        for (index, (call, goal)) in self.calls.iter().zip(&self.of).enumerate() {
+        for (call, goal) in self.calls.iter().zip(&self.of) {
             let Some(def) = prover.library.primitive(call.primitive) else { continue };
             let before = held(prover);
             let approaches = approaches(prover, def, call);
-            search::apply(prover, index, call);
+            search::apply(prover, call);
             let moves = def.motion.as_ref().is_some_and(|(query, _)| *query == MotionKind::GoTo);
             let carries = before.filter(|held_before| moves && held(prover).as_ref() == Some(held_before));
             let written =
@@ -249,6 +257,13 @@ impl Agenda {
         }
         Ok(steps)
     }
+}
+
+/// Rolls everything back and applies calls from the start.
+fn replay(prover: &mut Prover<'_>, calls: &[CandidateCall]) {
+    prover.back_to(0);
+    prover.state.lasting.clear();
+    calls.iter().for_each(|call| search::apply(prover, call));
 }
 
 /// Thing that is certainly in the hand.

@@ -1,19 +1,19 @@
 //! Weighted best-first search (Pohl 1970) over calls. A state consists of the facts after the calls that lead
 //! to it; it is recomputed from them when needed, since plans are short and facts are cheap to write and to
-//! roll back.
+//! roll back. A state is estimated when its turn comes (deferred evaluation, Richter and Helmert 2009). A
+//! plan estimates all states that may be the nearest, a repair first the one that its estimate expects to be.
 
 use std::cmp::Reverse;
-use std::collections::BinaryHeap;
+use std::collections::{BTreeMap, BinaryHeap};
 use std::hash::{Hash, Hasher};
 
 use motet_syntax::ast::PrimitiveKind;
 use rustc_hash::{FxHashSet, FxHasher};
 
-use super::NoPlan;
-use super::estimate::{Estimate, Ready};
+use super::estimate::{Estimate, Purpose, Ready, Target};
 use crate::declare::PerceptionLifetime;
 use crate::facts::Cause;
-use crate::ir::{Condition, StepId};
+use crate::ir::StepId;
 use crate::plan::achievers::CandidateCall;
 use crate::prove::Prover;
 use crate::prove::effects::FactChange;
@@ -22,70 +22,87 @@ use crate::prove::evaluation::CallFrame;
 /// Weight of the heuristic against the cost so far: above 1 the search is greedier.
 const WEIGHT: u64 = 2;
 
+/// Bounds of a search; what it uses is taken from the first two.
+#[derive(Clone, Copy)]
+pub(crate) struct Bounds {
+    /// Number of states to expand.
+    pub(crate) states: usize,
+    /// Number of calls to estimate.
+    pub(crate) estimates: usize,
+    /// Number of calls of a plan.
+    pub(crate) calls: usize,
+    /// Number of plans.
+    pub(crate) plans: usize,
+}
+
 /// Node of the search tree.
 struct Node {
     parent: Option<usize>,
     call: Option<CandidateCall>,
+    /// Calls to try here, once the state is estimated.
+    ready: Option<Vec<Ready>>,
     spent: u64,
     depth: usize,
 }
 
-/// Finds calls that reach a goal after the calls `before`. `left` is the remaining budget of states.
-pub(super) fn search(
+/// Searches plans that meet a target from the present state, the best first; none is the beginning of
+/// another. Fails if no call leads to the target, with a need that none can meet if one is known.
+pub(crate) fn search(
     prover: &mut Prover<'_>,
-    before: &[CandidateCall],
-    goal: &Condition,
-    left: &mut usize,
-) -> Result<Vec<CandidateCall>, NoPlan> {
-    let shown = |prover: &Prover<'_>| prover.show(goal, true, CallFrame::default());
-    replay(prover, before);
-    let mut nodes = vec![Node { parent: None, call: None, spent: 0, depth: 0 }];
-    let mut seen: FxHashSet<u64> = FxHashSet::default();
-    seen.insert(fingerprint(prover));
+    target: Target<'_>,
+    bounds: &mut Bounds,
+) -> Result<Vec<Vec<CandidateCall>>, Option<String>> {
+    let (root, lasting) = (prover.state.facts.mark(), prover.state.lasting.clone());
+    let mut nodes = vec![Node { parent: None, call: None, ready: None, spent: 0, depth: 0 }];
     // What is nearest first; of equals the one that was found first.
-    let mut open = BinaryHeap::from([(Reverse((0, 0)), 0_usize)]);
-    let mut blocker = None;
-    while let Some((_, index)) = open.pop() {
-        let Some(rest) = left.checked_sub(1) else { return Err(NoPlan::Budget { goal: shown(prover) }) };
-        *left = rest;
+    let mut open = BinaryHeap::from([Reverse((0, 0))]);
+    let (mut found, mut seen, mut blocker) = (Vec::new(), FxHashSet::default(), None);
+    while let Some(Reverse((_, index))) = open.pop().filter(|_| found.len() < bounds.plans) {
+        let Some(left) = bounds.states.checked_sub(1) else { break };
         let path = path(&nodes, index);
-        replay(prover, before);
-        for (offset, call) in path.iter().enumerate() {
-            apply(prover, before.len() + offset, call);
-        }
-        if prover.evaluate(goal, CallFrame::default()).is_true() {
-            return Ok(path);
-        }
-        let mut estimate = Estimate::new(prover);
-        let is_hopeless = estimate.goal(goal).is_none();
-        let Estimate { mut ready, dead, .. } = estimate;
-        // Of calls that come to the same the cheapest is kept.
-        ready.sort_by_key(|ready| ready.cost);
-        if is_hopeless {
-            if nodes.len() == 1 {
-                blocker = dead;
-            }
-            continue;
-        }
-        let (spent, depth) = nodes.get(index).map_or((0, 0), |node| (node.spent, node.depth));
-        for Ready { call, cost } in ready {
-            let mark = prover.state.facts.mark();
-            let lasting = prover.state.lasting.clone();
-            apply(prover, before.len() + depth, &call);
-            if seen.insert(fingerprint(prover)) {
-                let missing = Estimate::new(prover).goal(goal);
-                if let Some(missing) = missing {
-                    let spent = spent + u64::from(cost);
-                    let order = (spent + WEIGHT * u64::from(missing), nodes.len());
-                    open.push((Reverse(order), nodes.len()));
-                    nodes.push(Node { parent: Some(index), call: Some(call), spent, depth: depth + 1 });
+        let Some(node) = nodes.get_mut(index) else { break };
+        if node.ready.is_none() {
+            path.iter().for_each(|call| apply(prover, call));
+            let is_new = seen.insert(fingerprint(prover, root));
+            if is_new && target.is_met(prover) {
+                bounds.states = left;
+                found.push(path);
+            } else if is_new {
+                match Estimate::new(prover, target, &mut bounds.estimates).lacking() {
+                    Ok((missing, mut ready)) => {
+                        let order = match target.purpose {
+                            Purpose::Plan => node.spent + WEIGHT * u64::from(missing),
+                            // A short search has to be greedy: it goes on here.
+                            Purpose::Repair => 0,
+                        };
+                        // Of calls that come to the same the cheapest is kept.
+                        ready.sort_by_key(|ready| ready.cost);
+                        open.push(Reverse((order, index)));
+                        node.ready = Some(ready);
+                    }
+                    Err(dead) => blocker = blocker.or(dead.filter(|_| index == 0)),
                 }
             }
-            prover.back_to(mark);
-            prover.state.lasting = lasting;
+            prover.back_to(root);
+            prover.state.lasting.clone_from(&lasting);
+            continue;
+        }
+        bounds.states = left;
+        let (spent, depth) = (node.spent, node.depth + 1);
+        let ready = node.ready.take().into_iter().flatten().filter(|_| depth <= bounds.calls);
+        for Ready { call, cost, missing, .. } in ready {
+            let spent = spent + u64::from(cost);
+            let order = match target.purpose {
+                // At most its order, so that it is estimated before a state behind it is expanded.
+                Purpose::Plan => spent,
+                Purpose::Repair => spent + WEIGHT * u64::from(missing),
+            };
+            open.push(Reverse((order, nodes.len())));
+            nodes.push(Node { parent: Some(index), call: Some(call), ready: None, spent, depth });
         }
     }
-    Err(NoPlan::Unreachable { goal: shown(prover), blocker })
+    let is_exhausted = bounds.states == 0 || bounds.estimates == 0;
+    if found.is_empty() && !is_exhausted { Err(blocker) } else { Ok(found) }
 }
 
 /// Calls that lead to a node.
@@ -100,20 +117,13 @@ fn path(nodes: &[Node], index: usize) -> Vec<CandidateCall> {
     calls
 }
 
-/// Rolls everything back and applies calls from the start.
-pub(super) fn replay(prover: &mut Prover<'_>, calls: &[CandidateCall]) {
-    prover.back_to(0);
-    prover.state.lasting.clear();
-    for (index, call) in calls.iter().enumerate() {
-        apply(prover, index, call);
-    }
-}
-
 /// Applies a call that succeeds.
-pub(super) fn apply(prover: &mut Prover<'_>, index: usize, call: &CandidateCall) {
+pub(super) fn apply(prover: &mut Prover<'_>, call: &CandidateCall) {
     let library = prover.library;
     let Some(def) = library.primitive(call.primitive) else { return };
-    let id = StepId(u32::try_from(index).unwrap_or(u32::MAX));
+    // A number behind the steps of the policy. The trail grows with every call.
+    let id = prover.program.steps.len() + prover.state.facts.mark();
+    let id = StepId(u32::try_from(id).unwrap_or(u32::MAX));
     let cause = Cause::step(id);
     let frame = CallFrame { args: &call.args, result: call.result, each: None };
     let (mut makes, mut unsettles): (Vec<FactChange>, Vec<FactChange>) = Default::default();
@@ -135,12 +145,15 @@ pub(super) fn apply(prover: &mut Prover<'_>, index: usize, call: &CandidateCall)
     }
 }
 
-/// Hash of the facts that differ from the start.
-fn fingerprint(prover: &Prover<'_>) -> u64 {
-    let mut hasher = FxHasher::default();
-    for (fluent, key) in prover.state.facts.touched(0) {
+/// Hash of the facts that differ from those at a position in the trail.
+fn fingerprint(prover: &Prover<'_>, root: usize) -> u64 {
+    let (mut hasher, mut at_root) = (FxHasher::default(), BTreeMap::new());
+    for (fluent, key, before) in prover.state.facts.writes(root) {
+        at_root.entry((fluent, key)).or_insert(before);
+    }
+    for ((fluent, key), before) in at_root {
         let now = prover.state.facts.get(fluent, key);
-        if !now.same_set(prover.environment.facts.get(fluent, key)) {
+        if !now.same_set(before) {
             (fluent, key, now.yes.is_some(), now.no.is_some(), now.open.is_some()).hash(&mut hasher);
         }
     }

@@ -2,32 +2,29 @@
 //! add.
 //!
 //! A [`RepairFinder`] observes the prover and searches while the facts before the refuted step are at hand.
-//! The search chains backwards from needs to the calls that achieve them ([`crate::plan::achievers`]). It is
-//! bounded and greedy, after means-ends analysis (Newell and Simon 1963). What it finds is a candidate:
-//! [`crate::fix`] verifies it by checking the edited document again.
+//! The search is that of the planner ([`crate::plan::search`]) with a small budget. What it finds is a
+//! candidate: [`crate::fix`] verifies it by checking the edited document again.
 
-mod search;
 mod write;
 
 use motet_syntax::{Code, Diagnostic, Fix, Parsed, Severity, Span};
 
 use crate::declare::{Library, NeedDef, PrimitiveDef};
 use crate::environment::Environment;
+use crate::facts::effort;
 use crate::ir::{BindingId, Condition, Entity, Fact, Fluent, Program, StepId, StepKind, Term};
 use crate::plan::achievers::{CandidateCall, MAX_CANDIDATES, Subgoal};
+use crate::plan::estimate::{Estimate, Purpose, Target};
+use crate::plan::search::{Bounds, search};
 use crate::prove::evaluation::CallFrame;
 use crate::prove::{Observer, PolicyEnd, Problem, Prover};
 
-/// Maximal depth of needs of needs.
-const MAX_DEPTH: usize = 3;
-/// Maximal number of calls of one repair.
-const MAX_CALLS: usize = 6;
 /// Maximal number of findings of a policy for which repairs are searched.
 const MAX_FINDINGS: usize = 32;
 /// Maximal distance, in steps, to an earlier step before which a call may be inserted.
 const MAX_EARLIER: usize = 6;
-/// Maximal number of calls that are tried for one step.
-const MAX_TRIES: usize = 400;
+/// Bounds of the search for one finding.
+const BOUNDS: Bounds = Bounds { states: 40, estimates: 200, calls: 6, plans: MAX_CANDIDATES };
 
 /// Repairs of one diagnostic, the best first.
 #[derive(Clone, Debug)]
@@ -199,23 +196,38 @@ impl RepairFinder {
             repairs.push(Repair::Drop(id));
         }
         repairs.extend(prover.unwatched(def, frame).map(|fluent| Repair::Watch(id, fluent)));
-        let plans = prover.plans(&def.needs, frame);
+        let plans = self.plans(prover, &def.needs, frame);
         repairs.extend(plans.into_iter().map(|calls| Repair::Before(id, prover.by_binding(calls, span))));
         if self.search != RepairSearch::All {
             return self.add(diagnostic, repairs);
         }
         // A call that is impossible here, for instance because the hand is full, may go before an earlier
         // step.
-        let subgoals = prover.first_refuted(&def.needs, frame);
-        let direct: Vec<_> = subgoals.into_iter().flat_map(|subgoal| prover.achievers(subgoal)).collect();
+        let target = Target { needs: &def.needs, frame, purpose: Purpose::Repair };
+        let direct = Estimate::new(prover, target, &mut { BOUNDS.estimates }).last_calls();
         for earlier in prover.siblings_before(id) {
             let place = prover.program.step(earlier).map_or(span, |step| step.span);
-            for achiever in direct.iter().take(MAX_CANDIDATES) {
-                let calls = prover.by_binding(vec![achiever.call.clone()], place);
+            for call in direct.iter().take(MAX_CANDIDATES) {
+                let calls = prover.by_binding(vec![call.clone()], place);
                 repairs.push(Repair::Earlier(earlier, calls));
             }
         }
         self.add(diagnostic, repairs);
+    }
+
+    /// Sequences of calls after which no need is refuted, the best first: as many as are shown or tried.
+    fn plans(
+        &self,
+        prover: &mut Prover<'_>,
+        needs: &[NeedDef],
+        frame: CallFrame<'_>,
+    ) -> Vec<Vec<CandidateCall>> {
+        let plans = if self.search == RepairSearch::All { MAX_CANDIDATES } else { 1 };
+        let target = Target { needs, frame, purpose: Purpose::Repair };
+        let mut found = search(prover, target, &mut Bounds { plans, ..BOUNDS }).unwrap_or_default();
+        // Without effort every need is unknown.
+        found.retain(|calls| !calls.is_empty() && !effort::is_used_up());
+        found
     }
 
     /// Searches calls that undo a fact in which a policy ends: an object in the hand, a container left open.
@@ -236,7 +248,7 @@ impl RepairFinder {
             return;
         }
         let need = NeedDef { condition: goal, each: None, when: None, span };
-        let plans = prover.plans(&[need], CallFrame::default());
+        let plans = self.plans(prover, &[need], CallFrame::default());
         let repairs = plans.into_iter().map(|calls| match end {
             PolicyEnd::Before(_) => Repair::Before(id, prover.by_binding(calls, span)),
             PolicyEnd::After(_) => {
