@@ -106,6 +106,7 @@ class Driver:
         self.gripped, self.faults = (None, None), Faults(self.options.faults)
         self.tasks.answered = lambda: self.faults.answered(self.world.now - self.offset)
         self.hold_what_is_held()
+        self.world.settle(SETTLES)
 
     def hold_what_is_held(self):
         """Closes the fingers around what the scene puts between them."""
@@ -114,7 +115,6 @@ class Driver:
             self.world.settle_in_hand(holding)
             self.beliefs.holds(holding)
             self.tasks.goal[:] = self.world.target
-            self.world.data.time = 0.0
 
     # Calls.
 
@@ -158,9 +158,6 @@ class Driver:
             raise Error(INVALID_PARAMS, str(error)) from None
         self.eyes.close()
         self.make()
-        # Things come to rest.
-        self.world.wait(SETTLES)
-        self.world.data.time = 0.0
         # What nobody can observe is as the host says.
         self.given = [(fact["query"], fact["holds"]) for fact in state]
         for query, holds in self.given:

@@ -132,6 +132,11 @@ class World:
         while self.now - start < seconds:
             self.step()
 
+    def settle(self, seconds):
+        """Lets things come to rest before the time of the world begins."""
+        self.wait(seconds)
+        self.data.time, self.near_at = 0.0, -1.0
+
     # Poses.
 
     def base(self):

@@ -103,6 +103,12 @@ def test_holding_stopping_and_cancelling(drive):
     assert "error" in host.start("dance")[1]
 
 
+def test_things_rest_before_the_first_step(drive):
+    host = drive("hsr", "kitchen")
+    query = {"fact": {"fluent": "on", "args": [{"is": entity(one)} for one in ("mug_1", "kitchen_table")]}}
+    assert host.call("truth", query=query)["answer"] == host.call("observe", query=query)["answer"] == {"truth": True}
+
+
 def test_a_thing_that_is_lost_is_told(drive):
     host = drive("hsr", "kitchen")
     query = {"fact": {"fluent": "holding", "args": [{"is": {"entity": "mug_1"}}]}}
