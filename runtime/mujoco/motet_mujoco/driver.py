@@ -34,6 +34,8 @@ LOOK_EVERY = 1.0
 SAME_GRIP = 0.002
 # Primitives after which nothing new is in view.
 SPEECH = ("say", "ask", "choose")
+# Entities that stand in no scene.
+PLACELESS = ("robot", "start")
 
 
 class Options:
@@ -122,6 +124,8 @@ class Driver:
         version = params["protocol"]
         if version not in (1, 2):
             raise Error(INVALID_PARAMS, "this driver speaks versions 1 and 2 of the protocol")
+        if params.get("robot", self.model.robot) not in ("", self.model.robot):
+            raise Error(INVALID_PARAMS, "this driver has the robot `%s`, not `%s`" % (self.model.robot, params["robot"]))
         run = params.get("run")
         if self.run is not None and run != self.run or run is None:
             self.stop_all()
@@ -175,11 +179,15 @@ class Driver:
             fate = self.faults.of_call(command["primitive"])
             task = self.tasks.task(command)
             self.goals[number] = Goal(command, task if task is None else fated(task, fate, self.tasks))
+            strange = [one for one in entities(command["args"]) if one not in (*PLACELESS, *self.beliefs.entities)]
+            kinds = self.kinds(command["primitive"]) or ["refused"]
             if "refuses" in fate:
                 self.goals[number].state = {"refused": fate["refuses"]}
+            elif strange:
+                self.goals[number].state = {"refused": {"kind": kinds[0],
+                                                        "text": "the scene of this driver has no `%s`" % strange[0]}}
             elif task is None:
-                kinds = self.kinds(command["primitive"])
-                self.goals[number].state = {"refused": {"kind": kinds[0] if kinds else "refused",
+                self.goals[number].state = {"refused": {"kind": kinds[0],
                                                         "text": "this robot cannot do that in physics"}}
         state = self.goals[number].state
         if isinstance(state, dict) and "refused" in state:
@@ -509,6 +517,13 @@ def words(query):
     """A fact as the language writes it."""
     args = [named(arg["is"]) if arg != "any" else "any" for arg in query["fact"]["args"]]
     return "%s(%s)" % (query["fact"]["fluent"], ", ".join(str(arg) for arg in args))
+
+
+def entities(value):
+    """Names of the entities in a value, or in arguments."""
+    if isinstance(value, dict):
+        return [value["entity"]] if "entity" in value else entities(list(value.values()))
+    return [one for part in value for one in entities(part)] if isinstance(value, list) else []
 
 
 def alike(now, before):

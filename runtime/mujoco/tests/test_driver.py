@@ -103,6 +103,16 @@ def test_holding_stopping_and_cancelling(drive):
     assert "error" in host.start("dance")[1]
 
 
+def test_another_robot_or_scene_than_that_of_the_host_is_refused(drive):
+    host = drive("hsr", "kitchen")
+    greeting = {"protocol": 2, "run": "next", "policy": "test", "primitives": [{"name": "go", "fails": ["unreachable"]}]}
+    error = host.call("hello", robot="anymal_z1", **greeting)["error"]
+    assert error["message"] == "this driver has the robot `hsr`, not `anymal_z1`"
+    assert "capabilities" in host.call("hello", robot="hsr", **greeting)
+    failure = host.start("go", to=entity("workbench"))[1]["error"]["data"]["failure"]
+    assert failure == {"kind": "unreachable", "text": "the scene of this driver has no `workbench`"}
+
+
 def test_things_rest_before_the_first_step(drive):
     host = drive("hsr", "kitchen")
     query = {"fact": {"fluent": "on", "args": [{"is": entity(one)} for one in ("mug_1", "kitchen_table")]}}

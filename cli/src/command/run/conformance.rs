@@ -42,7 +42,10 @@ pub(super) fn check(file: Option<&Path>, args: &RunArgs, report: &mut Report) ->
     };
     catch_interrupts()?;
     let mut connect = |log: Box<dyn DriverLog>| {
-        let hello = Hello { state: state_facts(&opened), ..Hello::of(&graph, &run_id()) };
+        let mut hello = Hello { state: state_facts(&opened), ..Hello::of(&graph, &run_id()) };
+        if file.is_none() && !has_robot {
+            hello.robot.clear();
+        }
         let log = Box::new(WithErrors(log));
         RemoteDriver::connect(address.clone(), hello, DriverTimeouts::default(), Time::ZERO, log)
             .map_err(|breakage| format!("{} ({})", escape(&breakage.to_string()), address))
