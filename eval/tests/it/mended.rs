@@ -21,7 +21,7 @@ fn mutants_that_are_mended_do_what_they_are_for() {
         println!("{}", mended.line());
     }
     println!("{sums:?}");
-    assert!(sums.mended >= 84 && sums.done >= 75 && sums.untrue == 0, "{sums:?}");
+    assert!(sums.mended >= 87 && sums.done >= 78 && sums.untrue == 0, "{sums:?}");
 }
 
 /// Mends a policy for an HSR in the kitchen, which then is done with its goal.
