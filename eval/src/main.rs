@@ -433,7 +433,8 @@ fn sound(flags: &Flags, given: &[&str]) -> Result<Report, String> {
 
 fn failing(bench: &Bench, count: usize) -> Result<Report, String> {
     let ends = world::carry_out(world::runs(Path::new(EXAMPLES), count)?, bench)?;
-    let untrue = ends.iter().filter(|end| end.is_done && !end.is_true).map(serde_json::to_string);
+    let untrue =
+        ends.iter().filter(|end| end.is_done && end.is_true == Some(false)).map(serde_json::to_string);
     let sums = world::sums(&ends);
     Ok(Report {
         lines: untrue.collect::<Result<Vec<_>, _>>().map_err(|error| error.to_string())?,

@@ -99,8 +99,8 @@ fn mend_one(
     } else {
         let run = WorldRun::of_mutant(&mutant, SEED).carry_out(bench)?;
         match (run.is_done, run.is_true) {
-            (true, true) => MendedEnd::Done,
-            (true, false) => MendedEnd::Untrue,
+            (true, Some(false)) => MendedEnd::Untrue,
+            (true, Some(true) | None) => MendedEnd::Done,
             (false, _) => MendedEnd::Failed,
         }
     };

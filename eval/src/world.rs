@@ -59,8 +59,8 @@ pub struct WorldEnd {
     pub seed: u64,
     /// True if it ended as done.
     pub is_done: bool,
-    /// True if its goal holds by the truth of the world.
-    pub is_true: bool,
+    /// True if its goal holds by the truth of the world; none without a goal, or where the world cannot say.
+    pub is_true: Option<bool>,
     /// Failures of its steps by their sort.
     pub failures: BTreeMap<FailureSort, usize>,
     /// Sort of the last failure, where it is not done.
@@ -145,7 +145,7 @@ impl WorldRun {
             (Work::Request(case), Some(body), Some(scene)) => {
                 self.request(case, body.robot, scene, bench, &mut seen)?
             }
-            (_, _, _) => (false, false),
+            (_, _, _) => (false, None),
         };
         let failures = seen.0.counts();
         let failed_by = seen.0.0.last().copied().filter(|_| !is_done);
@@ -160,7 +160,7 @@ impl WorldRun {
         })
     }
 
-    /// Runs an example. Gives whether it is done, and whether its goal holds.
+    /// Runs an example. Gives whether it is done, and whether its goal holds, if that can be said.
     fn policy(
         &self,
         text: &str,
@@ -168,26 +168,27 @@ impl WorldRun {
         scene: &Scene,
         bench: &Bench,
         seen: &mut Failures,
-    ) -> Result<(bool, bool), String> {
+    ) -> Result<(bool, Option<bool>), String> {
         let robot = &body.robot;
         let (session, _) = setup::session(Some(robot), Some(scene), &mut Sources::default());
         let session = session.with_geometry(setup::geometry(body, scene));
         let parsed = motet_syntax::read(&Source::new("example.motet", text), FileId(99));
-        let Some(graph) = session.compile(&parsed, None).graph else { return Ok((false, false)) };
+        let Some(graph) = session.compile(&parsed, None).graph else { return Ok((false, None)) };
         let mut robot_in = bench.robot(robot, (scene, scene), self.seed, Faults::default())?;
         let Ok(engine) = Engine::new(graph.clone(), &StartState::default()) else {
-            return Ok((false, false));
+            return Ok((false, None));
         };
         let driver = robot_in.driver();
         let mut engine = engine.with_capabilities(driver.capabilities());
         let from = driver.begin_run(Time::ZERO, "run.1", Some(&graph));
         let end = run(&mut engine, driver, seen, from);
         let judge = Judge { graph: &graph, engine: &engine, world: RefCell::new(robot_in) };
-        let is_true = graph.goal.iter().all(|part| judge.truth(part) != Some(false));
+        let holds = || decided(graph.goal.iter().map(|part| judge.truth(part)), false);
+        let is_true = (!graph.goal.is_empty()).then(holds).flatten();
         Ok((matches!(end, RunEnd::Done { .. }), is_true))
     }
 
-    /// Carries a request out. Gives whether it is done, and whether its goal holds.
+    /// Carries a request out. Gives whether it is done, and whether its goal holds, if that can be said.
     fn request(
         &self,
         case: &dialogue::Case,
@@ -195,7 +196,7 @@ impl WorldRun {
         scene: Scene,
         bench: &Bench,
         seen: &mut Failures,
-    ) -> Result<(bool, bool), String> {
+    ) -> Result<(bool, Option<bool>), String> {
         let scene = case.told(scene);
         let mut robot_in = bench.robot(&robot, (&scene, &scene), self.seed, Faults::default())?;
         let options = CheckOptions::default();
@@ -208,7 +209,7 @@ impl WorldRun {
             robot_in.holds(fluent, &args)
         };
         let is_true = case.goal.iter().all(&mut holds) && !case.undo.iter().any(&mut holds);
-        Ok((outcome == Outcome::Done, is_true))
+        Ok((outcome == Outcome::Done, Some(is_true)))
     }
 }
 
@@ -316,6 +317,8 @@ pub struct WorldSums {
     pub done: usize,
     /// Runs that ended as done without their goal.
     pub untrue: usize,
+    /// Runs that ended as done without a goal, or with one of which the world cannot say if it holds.
+    pub not_judged: usize,
     /// Runs that were not done, by the sort of their last failure.
     pub failed_by: BTreeMap<FailureSort, usize>,
     /// Failures of steps, by their sort.
@@ -327,8 +330,11 @@ pub struct WorldSums {
 pub fn sums(ends: &[WorldEnd]) -> WorldSums {
     let mut sums = WorldSums { total: ends.len(), ..WorldSums::default() };
     for end in ends {
-        sums.done += usize::from(end.is_done && end.is_true);
-        sums.untrue += usize::from(end.is_done && !end.is_true);
+        match end.is_true.filter(|_| end.is_done) {
+            Some(true) => sums.done += 1,
+            Some(false) => sums.untrue += 1,
+            None => sums.not_judged += usize::from(end.is_done),
+        }
         if let Some(sort) = end.failed_by {
             *sums.failed_by.entry(sort).or_insert(0) += 1;
         }
