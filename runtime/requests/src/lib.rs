@@ -119,7 +119,7 @@ pub fn told(answer: &str, asked: PendingQuestion, situation: &RequestContext<'_>
 /// Question that an answer is given to.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum PendingQuestion {
-    /// The place of a thing: a place to open or to go to is where it may be.
+    /// The place of a thing: a place to open or to go to for a look is where it may be.
     Where,
     /// An act for a thing that could not be taken.
     What,

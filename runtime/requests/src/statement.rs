@@ -227,7 +227,10 @@ impl Reader<'_> {
 fn guided(clause: &[Token], asked: PendingQuestion) -> Vec<Token> {
     let begin = leading(clause, 0, Clause::Answer);
     let found = Rules("guidance").at(clause, 0).or_else(|| Rules("guidance").at(clause, begin));
-    let search = || Rules("guided_search").at(clause, begin).filter(|_| asked == PendingQuestion::Where);
+    let search = || {
+        let found = [0, begin].iter().find_map(|at| Rules("guided_search").at(clause, *at));
+        found.filter(|_| asked == PendingQuestion::Where)
+    };
     match found.or_else(search) {
         Some(found) => [&found.words, clause.get(found.end..).unwrap_or_default()].concat(),
         None => clause.to_vec(),

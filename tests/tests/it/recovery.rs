@@ -55,7 +55,7 @@ const FIND: [(&str, Led); 19] = [
     ("the coke is in the fridge", Led::Done),
     ("I think it is in the fridge", Led::Done),
     ("it should be in the fridge", Led::Done),
-    ("go to the fridge", Led::Done),
+    ("go to the fridge", Led::Asked),
     ("have a look in the fridge", Led::Done),
     ("the coke can is inside the refrigerator", Led::Done),
 ];

@@ -134,6 +134,9 @@ fn answer_where_a_thing_is_is_told_in_many_ways() {
         "Don't look in the fridge.",
         "I looked in the fridge, but it isn't there.",
         "Put it in the fridge.",
+        "Open the fridge.",
+        "Go to the fridge.",
+        "Drive to the kitchen counter, please.",
         "It used to be in the fridge, but not any more.",
         "It isn't in the fridge if I remember correctly.",
     ] {
