@@ -92,6 +92,53 @@ fn talk_with(
     (outcome, person, sim)
 }
 
+/// Keeps the replies to questions.
+#[derive(Default)]
+struct Replies(Vec<String>);
+
+impl DialogueObserver for Replies {
+    fn answered(&mut self, _question: &str, answer: Option<&str>) {
+        self.0.extend(answer.map(ToOwned::to_owned));
+    }
+}
+
+/// Says one thing after the other to the HSR in a kitchen that is otherwise than it was told. Returns its
+/// replies and its questions.
+fn converse(
+    real: impl Fn(&Scene) -> Scene,
+    said: &[&str],
+    answers: &[&'static str],
+) -> (Vec<String>, Vec<String>, Sim) {
+    let (robot, scene) = (setup::robot("hsr"), setup::scene("kitchen"));
+    let options = SimOptions { world: Some(real(&scene)), ..SimOptions::default() };
+    let mut sim = Sim::new(&robot, &scene, options);
+    let options = CheckOptions::default();
+    let setting = DialogueSetup { robot, scene, domains: Vec::new(), geometry: None, options };
+    let (mut talk, mut now) = (Conversation::new(&setting), Time::ZERO);
+    let (mut person, mut replies) =
+        (Beside { answers: answers.to_vec(), ..Beside::default() }, Replies::default());
+    for said in said {
+        (_, now) = talk.carry_out(said, &mut Builtin, &mut sim, &mut person, &mut replies, now);
+    }
+    (replies.0, person.questions, sim)
+}
+
+/// The kitchen without a thing.
+fn without(told: &Scene, id: &str) -> Scene {
+    let mut real = told.clone();
+    real.entities.shift_remove(id);
+    real
+}
+
+#[test]
+fn perception_question_first_looks_at_the_believed_place() {
+    let gone = |told: &Scene| without(told, "sponge");
+    let (replies, ..) = converse(gone, &["go to the sink", "is the sponge on the sink?"], &[]);
+    assert_eq!(replies, ["No, I looked on the kitchen sink and saw no yellow sponge."]);
+    let (replies, ..) = converse(Scene::clone, &["go to the sink", "is the sponge on the sink?"], &[]);
+    assert_eq!(replies, ["Yes, the yellow sponge is on the kitchen sink."]);
+}
+
 #[test]
 fn perception_told_place_reaches_the_driver() {
     let hidden = |told: &Scene| with_thing(told, "coke", [3.4, -0.6, 0.5], (None, Some("cupboard_1")));

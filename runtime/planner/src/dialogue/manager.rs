@@ -111,6 +111,13 @@ enum RoundResult {
     Problem(Problem, Retry),
 }
 
+/// Area of a search for an object: what the robot sees from where it is, or one surface after the other.
+#[derive(Clone, Copy)]
+pub(super) enum Area {
+    Here,
+    Room,
+}
+
 /// End of a search for an object.
 pub(super) enum SearchEnd {
     Found,
@@ -206,16 +213,15 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
         Outcome::Failed(latest.unwrap_or_else(nothing))
     }
 
-    /// Looks for an object, given by its id or by words, from where the robot is, and then at one surface
-    /// after the other. Nobody is asked: who wants to know where it is cannot tell. What is asked for
-    /// meanwhile is pursued.
-    pub(super) fn search(&mut self, thing: &SmolStr, driver: &mut dyn Driver) -> SearchEnd {
+    /// Looks for an object, given by its id or by words, in one area after the other. Nobody is asked: who
+    /// wants to know where it is cannot tell. What is asked for meanwhile is pursued.
+    pub(super) fn search(&mut self, thing: &SmolStr, areas: &[Area], driver: &mut dyn Driver) -> SearchEnd {
         let asked = self.task.request.clone();
-        for is_near in [true, false] {
+        for area in areas {
             let scene = self.talk.known.scene(&self.talk.setting.scene);
-            let planned = match is_near {
-                true => self.looking(None, thing, &scene),
-                false => self.seeking(&scene.called(thing), &scene),
+            let planned = match area {
+                Area::Here => self.looking(None, thing, &scene),
+                Area::Room => self.seeking(&scene.called(thing), &scene),
             };
             let Some(planned) = planned else { continue };
             let end = self.run(planned, driver, &scene);

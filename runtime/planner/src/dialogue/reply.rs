@@ -14,7 +14,7 @@ use smol_str::SmolStr;
 
 use super::conversation::{Conversation, DialogueObserver, Outcome, Person};
 use super::knowledge::Knowledge;
-use super::manager::{DialogueManager, SearchEnd};
+use super::manager::{Area, DialogueManager, SearchEnd};
 use super::problem::{Kind, Problem, join};
 use super::reason::in_words;
 use super::senses::{ask, sense};
@@ -60,11 +60,23 @@ impl Conversation<'_> {
         driver: &mut dyn Driver,
         from: Time,
     ) -> (Outcome, Time) {
+        let (mut now, sees) = (from, driver.capabilities().detections);
+        if let Some(thing) = self.unseen_here(&question).filter(|_| sees) {
+            let request = format!("find the {thing}");
+            let mut manager =
+                DialogueManager::new(self, (&mut *planner, &mut *person, &mut *watcher), &request, now);
+            let end = manager.search(&thing, &[Area::Here], driver);
+            now = manager.now;
+            if let SearchEnd::Replaced(outcome) = end {
+                return (outcome, now);
+            }
+            self.look_around(driver, now);
+        }
         let run = self.next_run();
-        let mut now = driver.begin_run(from, &run, None);
+        now = driver.begin_run(now, &run, None);
         now = self.find_out(&question, driver, now);
         let (mut answer, mut closing) = (self.answer_here(&question, driver, now), None);
-        let look = self.look_for(&question, driver.capabilities().detections).filter(|_| answer.is_none());
+        let look = self.look_for(&question, sees).filter(|_| answer.is_none());
         if let Some(look) = look {
             let request = match &look {
                 Look::For(thing) => format!("find the {thing}"),
@@ -73,7 +85,7 @@ impl Conversation<'_> {
             let mut manager =
                 DialogueManager::new(self, (&mut *planner, &mut *person, &mut *watcher), &request, now);
             let end = match &look {
-                Look::For(thing) => manager.search(thing, driver),
+                Look::For(thing) => manager.search(thing, &[Area::Here, Area::Room], driver),
                 Look::At(..) | Look::By(_) => match manager.pursue(driver) {
                     Outcome::Done if !manager.is_replaced(&request) => SearchEnd::Missed,
                     outcome => SearchEnd::Replaced(outcome),
@@ -254,6 +266,19 @@ impl Conversation<'_> {
             Topic::Standing | Topic::Held | Topic::Holds | Topic::Contents | Topic::Existence => None,
             Topic::Count | Topic::History | Topic::Activity | Topic::View | Topic::Seen => None,
         }
+    }
+
+    /// Thing that a question places, where it is believed to be right before the robot and is not in view.
+    fn unseen_here(&self, question: &RoomQuestion) -> Option<SmolStr> {
+        let scene = &self.known.seen_scene(&self.setting.scene);
+        let thing = question.things.first().filter(|_| question.topic == Topic::Placed)?;
+        let place = self.known.place_of(&self.setting.scene, thing)?.place;
+        let is_shown = match scene.entities.get(&place)?.kind.as_str() {
+            kinds::CONTAINER => self.is_open(&place, &self.known) == Some(true),
+            kind => kind == kinds::SURFACE,
+        };
+        let is_here = is_shown && self.known.standing(scene).as_ref() == Some(&place);
+        (is_here && self.known.seen_place(&self.setting.scene, thing).is_none()).then(|| thing.clone())
     }
 
     /// Look at everything on a surface or in a container. `None` where the hand is not free to open it.
