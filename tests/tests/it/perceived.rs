@@ -140,6 +140,15 @@ fn perception_question_first_looks_at_the_believed_place() {
 }
 
 #[test]
+fn perception_question_if_there_is_a_thing_looks_for_it() {
+    let stapler = |told: &Scene| with_stapler(told, [-1.72, 1.6, 1.03], "shelf");
+    let (replies, ..) = converse(stapler, &["is there a stapler?"], &[]);
+    assert_eq!(replies, ["Yes. The blue stapler is on the wall shelf."]);
+    let (replies, ..) = converse(Scene::clone, &["is there a stapler?"], &[]);
+    assert_eq!(replies, ["No, I know of no stapler here."]);
+}
+
+#[test]
 fn perception_told_place_reaches_the_driver() {
     let hidden = |told: &Scene| with_thing(told, "coke", [3.4, -0.6, 0.5], (None, Some("cupboard_1")));
     let (outcome, person, sim) = talk(hidden, "bring me the coke", &["It is in the cupboard."]);

@@ -117,6 +117,10 @@ impl Conversation<'_> {
             let known = self.answer_here(&question, driver, now);
             answer = known.or_else(|| self.found_here(&question).filter(|_| matches!(end, SearchEnd::Found)));
         }
+        // A look says if there is such a thing.
+        if question.topic == Topic::Existence && answer.is_none() {
+            answer = Some(self.unknown(&question));
+        }
         self.known.spoken_of.extend(question.things.iter().cloned());
         self.memory.asked(now, said, answer.as_deref());
         watcher.answered(said, answer.as_deref());
@@ -220,7 +224,8 @@ impl Conversation<'_> {
                 None if said.is_empty() => "I do not know what you mean.".to_owned(),
                 None => format!("I know of no {said} here."),
             },
-            Topic::Held | Topic::Holds | Topic::Existence | Topic::Count => "I do not know.".to_owned(),
+            Topic::Existence => format!("No, I know of no {said} here."),
+            Topic::Held | Topic::Holds | Topic::Count => "I do not know.".to_owned(),
             Topic::History | Topic::Activity | Topic::View | Topic::Seen => "I do not know.".to_owned(),
         }
     }
@@ -255,7 +260,7 @@ impl Conversation<'_> {
             return Some(look);
         }
         match question.topic {
-            Topic::Location | Topic::Placed | Topic::Distance | Topic::Reach => {
+            Topic::Location | Topic::Placed | Topic::Distance | Topic::Reach | Topic::Existence => {
                 let said = Some(&question.said).filter(|said| sees && !said.is_empty());
                 question.things.first().cloned().or_else(|| said.map(SmolStr::from)).map(Look::For)
             }
@@ -263,7 +268,7 @@ impl Conversation<'_> {
                 let name = scene.called(question.things.first()?);
                 Some(Look::By(format!("go to the {name}")))
             }
-            Topic::Standing | Topic::Held | Topic::Holds | Topic::Contents | Topic::Existence => None,
+            Topic::Standing | Topic::Held | Topic::Holds | Topic::Contents => None,
             Topic::Count | Topic::History | Topic::Activity | Topic::View | Topic::Seen => None,
         }
     }
@@ -392,13 +397,10 @@ impl Conversation<'_> {
             }
             // Who moves has no base from which these are asked.
             Topic::Distance | Topic::Reach => None,
-            Topic::Existence => Some(match things.as_slice() {
-                [] => format!("I know of no {} here.", question.said),
-                [first, ..] => {
-                    let told = self.located(first, known);
-                    format!("Yes. {}", told.unwrap_or_else(|| "I do not know where it is.".to_owned()))
-                }
-            }),
+            Topic::Existence => {
+                let told = self.located(things.first()?, known);
+                Some(format!("Yes. {}", told.unwrap_or_else(|| "I do not know where it is.".to_owned())))
+            }
             Topic::History => Some(self.history()),
             Topic::Activity => {
                 let situation = RequestContext::new(scene);
