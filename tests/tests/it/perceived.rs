@@ -149,6 +149,12 @@ fn perception_question_if_there_is_a_thing_looks_for_it() {
 }
 
 #[test]
+fn perception_thing_in_a_persons_hand_is_asked_for() {
+    let (_, questions, _) = converse(Scene::clone, &["bring me the coke", "put it on the counter"], &[]);
+    assert_eq!(questions, ["You have the coke can. Put it down where I can reach it. Where is it then?"]);
+}
+
+#[test]
 fn perception_told_place_reaches_the_driver() {
     let hidden = |told: &Scene| with_thing(told, "coke", [3.4, -0.6, 0.5], (None, Some("cupboard_1")));
     let (outcome, person, sim) = talk(hidden, "bring me the coke", &["It is in the cupboard."]);

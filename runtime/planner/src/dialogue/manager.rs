@@ -314,6 +314,11 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
                 RoundResult::Round
             }
             Some(problem) => {
+                let held = problem.about.as_ref().filter(|_| problem.kind == Kind::NotReachable);
+                if let Some(told) = held.and_then(|thing| self.talk.with_person(thing)) {
+                    let question = format!("{told} Put it down where I can reach it. Where is it then?");
+                    return RoundResult::Problem(Problem { question, ..problem }, Retry::Pointless);
+                }
                 let is_of_person = matches!(&end, RunEnd::Failed { kind, .. } if kind == failures::REFUSED);
                 let retry = if was_refused || stood_wrong {
                     Retry::Promising

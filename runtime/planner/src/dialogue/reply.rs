@@ -463,6 +463,13 @@ impl Conversation<'_> {
         Some(format!("{}.", capital(&there(scene, id, &place.place))))
     }
 
+    /// Sentence that a person has a thing, where that is known.
+    pub(super) fn with_person(&self, thing: &SmolStr) -> Option<String> {
+        let place = self.known.place_of(&self.setting.scene, thing)?.place;
+        let is_person = self.setting.scene.entities.get(&place)?.kind == kinds::PERSON;
+        self.located(thing, &self.known).filter(|_| is_person)
+    }
+
     /// Steps that were carried out, in words.
     fn history(&self) -> String {
         let scene = self.known.seen_scene(&self.setting.scene);
