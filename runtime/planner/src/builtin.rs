@@ -6,7 +6,7 @@ use motet_compiler::plan::{Goal, NoPlan, PLAN_BUDGET, Persistence, Plan, Planned
 use motet_requests::{Aim, RequestContext, RequestError};
 use motet_robots::card::Robot;
 use motet_robots::scene::Scene;
-use motet_stdlib::lang::{fluents, measures};
+use motet_stdlib::lang::{fluents, measures, primitives};
 use motet_syntax::ast::{Expr, ExprKind};
 use motet_syntax::{FileId, Source, Syntax, print};
 
@@ -120,8 +120,13 @@ pub(super) fn policy(
             continue;
         }
         if is_grouped {
-            let name = aim.map_or("put_right", |aim| aim.name.as_str());
-            text.push_str(&format!("sequence {} {{\n", print::identifier(name)));
+            let head = match aim {
+                Some(aim) => format!("sequence {}", print::identifier(&aim.name)),
+                // What was opened for a look is closed after a look in vain, too.
+                None if ends_with_look(aims, plan) => "finally".to_owned(),
+                None => "sequence put_right".to_owned(),
+            };
+            text.push_str(&format!("{head} {{\n"));
         }
         let only_if = aim.and_then(|aim| aim.only_if.as_ref()).filter(|_| is_grouped);
         if let Some(condition) = only_if {
@@ -141,6 +146,12 @@ pub(super) fn policy(
     // All of it holds already.
     text.push_str(if text.len() == head { "done\n}\n" } else { "}\n" });
     text
+}
+
+/// True if the last aim of a plan ends with a look.
+fn ends_with_look(aims: &[Aim], plan: &Plan) -> bool {
+    let last = plan.steps.iter().rfind(|step| step.goal + 1 == aims.len());
+    last.is_some_and(|step| step.call.call.name.text == primitives::INSPECT)
 }
 
 /// Part of a conjunction, in parentheses if necessary.

@@ -149,6 +149,13 @@ fn perception_question_if_there_is_a_thing_looks_for_it() {
 }
 
 #[test]
+fn perception_look_in_vain_closes_what_it_opened() {
+    let gone = |told: &Scene| without(told, "sponge");
+    let (_, questions, sim) = converse(gone, &["look for the sponge"], &["in the fridge", "leave it"]);
+    assert_eq!((questions.len(), sim.holds("open", &["fridge_1"])), (2, Some(false)), "{questions:?}");
+}
+
+#[test]
 fn perception_thing_in_a_persons_hand_is_asked_for() {
     let (_, questions, _) = converse(Scene::clone, &["bring me the coke", "put it on the counter"], &[]);
     assert_eq!(questions, ["You have the coke can. Put it down where I can reach it. Where is it then?"]);
