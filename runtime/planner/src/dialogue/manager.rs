@@ -111,10 +111,14 @@ enum RoundResult {
     Problem(Problem, Retry),
 }
 
-/// Area of a search for an object: what the robot sees from where it is, or one surface after the other.
+/// Area of a search for an object.
 #[derive(Clone, Copy)]
 pub(super) enum Area {
+    /// Its believed place, as far as a camera sees that from where the robot is.
+    Place,
+    /// All that the robot sees from where it is.
     Here,
+    /// One surface after the other.
     Room,
 }
 
@@ -220,6 +224,11 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
         for area in areas {
             let scene = self.talk.known.scene(&self.talk.setting.scene);
             let planned = match area {
+                Area::Place => self.checked(
+                    &format!("{}({})", primitives::INSPECT, print::identifier(thing)),
+                    &scene,
+                    driver.base(),
+                ),
                 Area::Here => self.looking(None, thing, &scene),
                 Area::Room => self.seeking(&scene.called(thing), &scene),
             };
@@ -344,14 +353,20 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
     /// the check.
     fn looking(&self, degrees: Option<i32>, thing: &SmolStr, scene: &Scene) -> Option<PlannedRequest> {
         let name = scene.entities.get(thing).map(motet_requests::called)?;
-        let robot = print::identifier(&self.talk.setting.robot.name);
         let turn = degrees.map(|degrees| format!("{}({degrees} deg) ", primitives::TURN)).unwrap_or_default();
         let detect = format!("{}({})", primitives::DETECT, quoted(&name));
-        let text = format!("policy look for {robot} {{ {turn}{detect} }}");
-        let session = self.talk.session(scene, &self.talk.known, None);
-        let ReplyVerdict::Good { planned, .. } = judge(&session, &text) else { return None };
+        let policy = self.checked(&format!("{turn}{detect}"), scene, None)?;
         let understood = Intent { spoken_of: vec![thing.clone()], ..Intent::default() };
-        Some(PlannedRequest { understood, planned: *planned })
+        Some(PlannedRequest { understood, ..policy })
+    }
+
+    /// Policy that looks by these steps, with the base at a pose. `None` if it does not pass the check.
+    fn checked(&self, steps: &str, scene: &Scene, base: Option<[f64; 3]>) -> Option<PlannedRequest> {
+        let robot = print::identifier(&self.talk.setting.robot.name);
+        let text = format!("policy look for {robot} {{ {steps} }}");
+        let session = self.talk.session(scene, &self.talk.known, base);
+        let ReplyVerdict::Good { planned, .. } = judge(&session, &text) else { return None };
+        Some(PlannedRequest { understood: Intent::default(), planned: *planned })
     }
 
     /// Policy that looks for a thing that nobody knows, at one surface after the other and then into what is
@@ -366,12 +381,8 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
         let surfaces = places().filter(|entity| entity.kind == kinds::SURFACE);
         let around = surfaces.take(MAX_PLACES).chain(places().filter(is_open).take(MAX_PLACES / 2));
         let around: Vec<String> = around.map(|place| print::identifier(&place.id).to_string()).collect();
-        let robot = print::identifier(&self.talk.setting.robot.name);
         let (search, what) = (primitives::SEARCH, quoted(name));
-        let text = format!("policy look for {robot} {{ {search}({what}, [{}]) }}", around.join(", "));
-        let session = self.talk.session(scene, &self.talk.known, None);
-        let ReplyVerdict::Good { planned, .. } = judge(&session, &text) else { return None };
-        Some(PlannedRequest { understood: Intent::default(), planned: *planned })
+        self.checked(&format!("{search}({what}, [{}])", around.join(", ")), scene, None)
     }
 
     /// Offers to look for a thing that nobody knows, or looks for it where the request says so. A thing is

@@ -65,7 +65,7 @@ impl Conversation<'_> {
             let request = format!("find the {thing}");
             let mut manager =
                 DialogueManager::new(self, (&mut *planner, &mut *person, &mut *watcher), &request, now);
-            let end = manager.search(&thing, &[Area::Here], driver);
+            let end = manager.search(&thing, &[Area::Place], driver);
             now = manager.now;
             if let SearchEnd::Replaced(outcome) = end {
                 return (outcome, now);
