@@ -199,8 +199,7 @@ class Robot:
                 self.beliefs.hear(value, declared)
             self._make(primitive, contract, value)
             return value
-        self._end_lifetimes(primitive, contract)
-        self._doubt(contract)
+        self._doubt(primitive, contract)
         if outcome == "interrupted":
             raise Interrupted
         raise value
@@ -274,9 +273,9 @@ class Robot:
         except asyncio.CancelledError:
             outcome, value = await self._cancel(goal, task)
             if outcome == "success":
-                self._make(contract, value)
+                self._make(primitive, contract, value)
             else:
-                self._doubt(contract)
+                self._doubt(primitive, contract)
             raise
         if task.done():
             return task.result()
@@ -366,8 +365,9 @@ class Robot:
         over = [fact for fact, (uses, of) in self.beliefs.lasting.items() if used & uses or moved & of]
         self._apply(Change(fact, None) for fact in over)
 
-    def _doubt(self, contract: Contract) -> None:
+    def _doubt(self, primitive: str, contract: Contract) -> None:
         """Nothing is known any more of what a call makes or unsettles."""
+        self._end_lifetimes(primitive, contract)
         self._apply(self._changes((*contract.makes, *contract.unsettles), None))
 
     def _apply(self, changes: Iterable[Change]) -> None:
