@@ -218,9 +218,21 @@ impl TruthSet {
         (self.yes.is_some(), self.no.is_some(), self.open.is_some(), self.yes.seen())
     }
 
-    /// Value after a write of `new` that may have been about another fact: the same, or unobserved.
+    /// Value after a write of `new` that may have been about another fact: on paths where both say the same,
+    /// that; on others unobserved.
     pub(crate) fn maybe(self, new: Self, cause: Cause) -> Self {
-        if self.same_set(new) { self.join(new) } else { Self::open(cause) }
+        if self.same_set(new) {
+            return self.join(new);
+        }
+        let kept = |own: Cause, new: Cause| if own.is_some() { own.join(new) } else { own };
+        let rest = Self::open(cause);
+        if new.is_true() {
+            Self { yes: kept(self.yes, new.yes), ..rest }
+        } else if new.is_false() {
+            Self { no: kept(self.no, new.no), ..rest }
+        } else {
+            rest
+        }
     }
 
     pub(crate) fn is_true(self) -> bool {

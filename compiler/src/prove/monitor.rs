@@ -437,6 +437,7 @@ impl<'a> Prover<'a> {
         let is_in = |step: &Step| {
             step.position.parent == Some(by) && matches!(step.position.slot, BlockSlot::Reaction(_))
         };
+        effort::spend(program.steps.len());
         for (index, step) in program.steps.iter().enumerate() {
             let StepKind::Call(call) = &step.kind else { continue };
             let id = StepId(u32::try_from(index).unwrap_or(u32::MAX));
