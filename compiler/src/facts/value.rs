@@ -198,7 +198,7 @@ impl TruthSet {
 
     /// Union, as at a join of paths. The causes of `self` win, but for those that saw the fact.
     pub(crate) fn join(self, other: Self) -> Self {
-        Self { yes: self.yes.join(other.yes), no: self.no.or(other.no), open: self.open.or(other.open) }
+        Self { yes: self.yes.join(other.yes), no: self.no.join(other.no), open: self.open.or(other.open) }
     }
 
     /// Returns whether both sets hold the same truth values, whatever their causes.
@@ -208,14 +208,19 @@ impl TruthSet {
             && self.open.is_some() == other.open.is_some()
     }
 
+    /// Perceptions that limit how long the fact is true or false.
+    fn seen(self) -> [Option<Cause>; 2] {
+        [self.yes.seen(), self.no.seen()]
+    }
+
     /// Returns whether both sets hold the same truth values, and for as long.
     pub(crate) fn lasts_as(self, other: Self) -> bool {
-        self.same_set(other) && self.yes.seen() == other.yes.seen()
+        self.same_set(other) && self.seen() == other.seen()
     }
 
     /// The truth values, and how long they last.
-    pub(super) fn known(self) -> (bool, bool, bool, Option<Cause>) {
-        (self.yes.is_some(), self.no.is_some(), self.open.is_some(), self.yes.seen())
+    pub(super) fn known(self) -> (bool, bool, bool, [Option<Cause>; 2]) {
+        (self.yes.is_some(), self.no.is_some(), self.open.is_some(), self.seen())
     }
 
     /// Value after a write of `new` that may have been about another fact: on paths where both say the same,

@@ -472,7 +472,7 @@ impl<'a> Prover<'a> {
             if let Condition::Fact(_) = part {
                 let known = self.evaluate(part, CallFrame::default());
                 makers.extend(known.yes.as_step().into_iter().chain(known.no.as_step()));
-                if known.yes == Cause::SEEN_BY_SEVERAL {
+                if [known.yes, known.no].contains(&Cause::SEEN_BY_SEVERAL) {
                     makers.extend(self.state.lasting.keys());
                     makers.sort_unstable();
                 }
