@@ -272,8 +272,9 @@ fn proofs_of_what_was_seen_end_with_its_lifetime() {
     ] {
         assert_eq!(verdicts("use", &policy(steps)), [Verdict::Deferred], "{steps}");
     }
-    let missing = "closed world\nperception miss(what: Text) -> Object\n    makes not f(result)\n    \
-                   lasts until base\n    uses base\npolicy p { repeat 2 { miss(\"a\") avoid(a) } }";
+    let missing = "closed world\nentity b: Object\nperception miss(what: Text) -> Object\n    \
+                   makes not f(result)\n    lasts until base\n    uses base\n\
+                   policy p { repeat 2 { miss(\"thing\") avoid(a) } }";
     assert_eq!(verdicts("avoid", missing), [Verdict::Deferred]);
     for steps in [
         "see_all(\"a\") pass() use(a)",
