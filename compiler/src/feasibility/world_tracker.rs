@@ -199,15 +199,15 @@ impl WorldTracker {
     }
 
     /// Records that a hand is free. Behind a grasp that broke off, the thing then stands near its place.
-    pub fn is_free(&mut self) {
+    pub fn freed(&mut self) {
         let hand = self.library.lang_items.hand.and_then(|hand| self.library.enums.get(hand.index()));
         if hand.is_some_and(|hand| hand.cases.len() == 1) {
-            self.is_empty();
+            self.emptied();
         }
     }
 
     /// Records that all hands are empty.
-    pub fn is_empty(&mut self) {
+    pub fn emptied(&mut self) {
         if let Some(loose) = self.loose.take_if(|_| self.moving == 0)
             && let Some(before) = self.stranded.take()
         {
@@ -246,7 +246,7 @@ impl WorldTracker {
     pub fn observed(&mut self, fluent: &str, entity: &str, holds: bool) {
         if fluent == lang::fluents::HOLDING && self.loose.as_deref() == Some(entity) {
             if !holds {
-                self.is_empty();
+                self.emptied();
             }
             return;
         }

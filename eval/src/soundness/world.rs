@@ -258,7 +258,7 @@ impl<'d> World<'d> {
         if hidden.is_empty() { told(false) } else { Answer::Unknown }
     }
 
-    /// What an answer has told of single facts is so until something changes it.
+    /// Ends the lifetimes of facts that an answer has told: they are so until something changes them.
     fn observed(&mut self, query: &Query, answer: &Answer) {
         let cells = self.asked(query).unwrap_or_default();
         if *answer == Answer::Truth(false) || (cells.len() == 1 && *answer != Answer::Unknown) {
@@ -355,6 +355,17 @@ impl<'d> World<'d> {
         Running { id, touches, unfinished, makes, perceives, uses_base, flips, ends, outcome, held: None }
     }
 
+    /// Takes a goal off those that run. Nothing is known any more of what it touched.
+    fn stop(&mut self, place: usize) -> Running {
+        let goal = self.running.remove(place);
+        self.made_with.retain(|cell, _| !goal.touches.contains(cell));
+        self.perceived.retain(|cell| !goal.touches.contains(cell));
+        if goal.uses_base {
+            self.outdate();
+        }
+        goal
+    }
+
     /// Lets anything be so of what was perceived before the base moved.
     fn outdate(&mut self) {
         for cell in std::mem::take(&mut self.perceived) {
@@ -404,12 +415,7 @@ impl<'d> World<'d> {
             goal.ends = shift;
             return;
         }
-        let goal = self.running.remove(place);
-        self.made_with.retain(|cell, _| !goal.touches.contains(cell));
-        self.perceived.retain(|cell| !goal.touches.contains(cell));
-        if goal.uses_base {
-            self.outdate();
-        }
+        let goal = self.stop(place);
         self.unheard.push((id, goal.touches));
         for cell in goal.unfinished {
             if chance(&mut self.dice, 50) {
@@ -444,12 +450,7 @@ impl<'d> World<'d> {
             goal.flips.remove(0);
             return self.flip(cell, truth);
         }
-        let goal = self.running.remove(place);
-        self.made_with.retain(|cell, _| !goal.touches.contains(cell));
-        self.perceived.retain(|cell| !goal.touches.contains(cell));
-        if goal.uses_base {
-            self.outdate();
-        }
+        let goal = self.stop(place);
         self.perceived.extend(goal.perceives);
         if self.running.iter().any(|other| other.uses_base) {
             self.outdate();

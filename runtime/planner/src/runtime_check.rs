@@ -211,10 +211,8 @@ impl RunTracker {
             DriverEvent::Observed { query: Query::Fact { fluent, args }, answer: Answer::Truth(holds) } => {
                 match args.as_slice() {
                     [Pattern::Is(Value::Entity(entity))] => self.course.observed(fluent, entity, *holds),
-                    [Pattern::Any] if fluent == fluents::HOLDING && !holds => self.course.is_empty(),
-                    [Pattern::Is(Value::Case(_))] if fluent == fluents::FREE && *holds => {
-                        self.course.is_free();
-                    }
+                    [Pattern::Any] if fluent == fluents::HOLDING && !holds => self.course.emptied(),
+                    [Pattern::Is(Value::Case(_))] if fluent == fluents::FREE && *holds => self.course.freed(),
                     _ => {}
                 }
                 self.stand(now);

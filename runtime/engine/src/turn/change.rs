@@ -51,11 +51,11 @@ pub(super) struct Contracts<'a> {
     pub(super) begun: u64,
     /// Changes that other calls which run may make at any moment.
     pub(super) busy: Vec<BeliefChange>,
-    /// What these calls end.
+    /// Resources and entities by which these calls end lifetimes.
     pub(super) ends: Vec<LifetimeEnd>,
 }
 
-/// What a call uses and moves: that ends the lifetimes of perceived facts.
+/// Resources that a call uses, and entities that it moves: they end the lifetimes of perceived facts.
 pub(super) struct LifetimeEnd {
     uses: Vec<SmolStr>,
     moves: Vec<SmolStr>,
@@ -218,7 +218,7 @@ impl Contracts<'_> {
         let mut judge = self.judge(None);
         let entities = lifetime.entities.iter().filter_map(|term| entity(judge.term(term)?));
         let entities: Vec<SmolStr> = entities.collect();
-        // The last change of a fact is the one that stands.
+        // What is both made and unmade stands once.
         for BeliefChange { fluent, args, .. } in changes.iter().filter(|change| change.sure) {
             let fact = Query::Fact { fluent: fluent.clone(), args: args.clone() };
             let lasting = &mut self.beliefs.lasting;
@@ -267,7 +267,7 @@ impl Contracts<'_> {
         }
     }
 
-    /// What a call uses, and what an action moves: the first arguments of what it changes.
+    /// Resources of a call, and the first arguments of what an action changes.
     fn end_of(&mut self, call: &CallNode) -> LifetimeEnd {
         let graph = self.graph;
         let primitive = graph.primitives.get(call.primitive.index());
