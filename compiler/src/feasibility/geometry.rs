@@ -353,13 +353,13 @@ impl Geometry {
         world.map(|world| Arc::new(fingerprinted(world)))
     }
 
-    /// The geometry and the world in which nobody knows exactly where a thing is, which was near its place,
-    /// and which the hand does not hold.
+    /// The geometry and the world in which nobody knows exactly where a thing is, and the hand does not hold
+    /// it. What stood somewhere is near that place.
     pub(super) fn without(&self, at: &Fingerprinted, id: &SmolStr) -> (Arc<Self>, Arc<Fingerprinted>) {
         let (mut scene, mut world) = (self.scene.clone(), at.world.clone());
         let mut guess = None;
         if let Some(thing) = scene.entities.get_mut(id) {
-            guess = at.world.pose(thing).map(|pose| {
+            guess = at.world.pose(thing).filter(|_| !at.world.holds(id)).map(|pose| {
                 let (roll, pitch, yaw) = pose.rotation.euler_angles();
                 Placement { xyz: pose.translation.vector.into(), rpy: [roll, pitch, yaw] }
             });
