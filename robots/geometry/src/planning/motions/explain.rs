@@ -102,6 +102,9 @@ impl QueryContext<'_> {
                 let least = libm::ceil((needs.abs() - limit).to_degrees() - 1e-6);
                 Some(format!("turn to the {to} by at least {least:.0}° first"))
             }
+            InfeasibleReason::NotInView { by: Some(by), .. } if self.state.holds(by) => {
+                Some(format!("put `{by}` down first"))
+            }
             InfeasibleReason::NoFreePose { by, .. }
             | InfeasibleReason::BlockedPath { by }
             | InfeasibleReason::NotInView { by, .. } => {

@@ -1,7 +1,7 @@
 //! `look`: an entity in a camera's view with a free line of sight, with base and arm still.
 //!
-//! An entity is in view within the range of the card, where no obstacle hides one of its points. A camera
-//! that joints turn has to aim at it to within [`AIM`], and its bearing from the base may be at most half
+//! An entity is in view within the range of the card, where neither an obstacle nor the held object hides
+//! one of its points. A camera that joints turn has to aim at it to within [`AIM`], and its bearing from the base may be at most half
 //! of the card's view, which includes the joints' motion. The view of a fixed camera is its own.
 
 use motet_robots::card::CameraMount;
@@ -164,6 +164,7 @@ fn sees(
     let poses = context.model.map_from_links(configuration);
     let Some(camera) = poses.get(view.frame) else { return Visibility::Aside };
     let (eye, axis) = (camera.translation.vector, camera.rotation * Vector3::z());
+    let load = context.held_solid(&poses);
     let mut found = Visibility::Aside;
     for point in points {
         let way = point - eye;
@@ -179,9 +180,14 @@ fn sees(
         let near =
             context.obstacles.near([line.centre.x, line.centre.y], far / 2.0).map(|(_, obstacle)| obstacle);
         let mut others = near.filter(|obstacle| obstacle.entity != index && !context.is_kept(obstacle));
-        match others.find(|obstacle| !line.is_farther(&obstacle.solid, 0.0)) {
+        let hides = |solid: &Solid| !line.is_farther(solid, 0.0);
+        let held = load.as_ref().filter(|(_, solid)| hides(solid)).map(|(id, _)| (*id).clone());
+        let by = held.or_else(|| {
+            others.find(|obstacle| hides(&obstacle.solid)).map(|obstacle| context.name(obstacle.entity))
+        });
+        match by {
             None => return Visibility::Free,
-            Some(obstacle) => found = Visibility::Hidden(context.name(obstacle.entity)),
+            Some(by) => found = Visibility::Hidden(by),
         }
     }
     found

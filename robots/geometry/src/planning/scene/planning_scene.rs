@@ -329,6 +329,13 @@ impl<'w> PlanningScene<'w> {
         Some(HeldObject { id: held.clone(), tip_from_object: *tip_from_object, hand, shape, width })
     }
 
+    /// Id of the held object and its solid in the map frame, with the links at `poses`. `None` if nothing
+    /// with a shape is held.
+    pub(crate) fn held_solid(&self, poses: &[Isometry3<f64>]) -> Option<(&SmolStr, Solid)> {
+        let ((id, _), part) = self.state.held.as_ref().zip(self.body.parts().get(self.held?))?;
+        Some((id, part.solid.moved(poses.get(part.link)?)))
+    }
+
     /// Supporting entity of another one: the first within the padding of it.
     pub(crate) fn support(&self, entity: usize) -> Option<usize> {
         let own: Vec<&Solid> = self.solids_of(entity).collect();

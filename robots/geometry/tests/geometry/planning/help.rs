@@ -6,7 +6,7 @@ use motet_geometry::planning::{
 };
 use motet_robots::builtin;
 use motet_robots::card;
-use motet_robots::scene::{EntityShape, Placement, Scene, Travel};
+use motet_robots::scene::{EntityShape, Grip, Placement, Scene, Travel};
 use motet_syntax::{FileId, Source};
 
 use super::{bare, changed, embedded, model, motion_query};
@@ -313,6 +313,32 @@ fn explain_reports_heights_for_every_hand_motion() {
             "{query}: {lower:?}"
         );
     }
+}
+
+#[test]
+fn look_does_not_see_past_the_held_object() {
+    let (model, _) = model("hsr");
+    // A board of the given height, held upright before the head, and a mug behind it.
+    let behind_a_board = |high: f64| {
+        changed(|scene| {
+            scene.entities.retain(|id, _| ["mug_1", "book"].contains(&id.as_str()));
+            let mut board = scene.entities["mug_1"].clone();
+            board.id = "board".into();
+            board.shape = Some(EntityShape::Box([0.02, high, high]));
+            (board.on, board.pose) = (None, None);
+            scene.entities.insert("board".into(), board);
+            let mug = &mut scene.entities["mug_1"];
+            (mug.on, mug.pose.as_mut().unwrap().xyz) = (None, [3.0, 0.0, 1.0]);
+            scene.robot.holding = Some(Some("board".into()));
+            let tip_from_object = Placement { xyz: [0.1, 0.0, 0.0], rpy: [0.0, 0.0, 0.0] };
+            scene.robot.grip = Some(Grip { of: "board".into(), tip_from_object });
+            scene.robot.joints.insert("arm_flex_joint".into(), -1.3);
+        })
+    };
+    assert!(matches!(asked(&model, &behind_a_board(0.02), "look(mug_1)").0, MotionAnswer::Feasible(_)));
+    let (why, help) = refused(&model, &behind_a_board(3.0), "look(mug_1)");
+    assert_eq!(why.reason, InfeasibleReason::NotInView { by: Some("board".into()), aside: None });
+    assert_eq!(help.as_deref(), Some("put `board` down first"));
 }
 
 #[test]
