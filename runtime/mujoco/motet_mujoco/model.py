@@ -12,8 +12,6 @@ import numpy as np
 
 # Seconds within which the base and a joint reach their greatest speed, as in the time parametrisation of witnesses.
 RAMPS = (1.0, 0.5)
-# Rounds of the solver that keeps what is held from creeping.
-NOSLIP = 3
 
 
 class ModelError(Exception):
@@ -71,8 +69,6 @@ class Model:
             self.mj = mujoco.MjModel.from_xml_string(xml)
         except ValueError as error:
             raise ModelError("MuJoCo does not take the model: %s" % error) from None
-        # Soft contacts creep under the force of a hand, until a can leaves the jaw: this solver holds them.
-        self.mj.opt.noslip_iterations = NOSLIP
         # What sleeps leaves few constraints, for which a dense solver is faster, most of all with a thing in the hand.
         self.mj.opt.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
         m = self.mj

@@ -157,7 +157,7 @@ fn header(xml: &mut XmlText, card: &Robot, scene: &Scene) {
             ("integrator", "implicitfast".into()),
             ("cone", "elliptic".into()),
             ("impratio", "10".into()),
-            // Else a grip creeps. After 4 iterations a jar that is turned in a jaw is squeezed out.
+            // Soft contacts creep under the force of a hand. With 4 iterations a jaw squeezes out a jar that it turns.
             ("noslip_iterations", "8".into()),
         ],
     );
