@@ -604,6 +604,10 @@ fn conversation_looks_into_what_is_closed_and_closes_it_again() {
     for container in ["drawer_1", "fridge_1"] {
         assert_eq!(sim.holds("open", &[container]), Some(false), "{container}");
     }
+    // What was seen there counts until the next task.
+    carried_out(&mut talk, &mut sim, "bring me the coke", &[]);
+    let empty = "I looked in the top drawer and saw nothing.";
+    check_answers(&mut talk, &mut sim, &[("what is in the drawer?", Some(empty), 2)]);
 }
 
 #[test]

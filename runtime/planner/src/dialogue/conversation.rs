@@ -155,6 +155,9 @@ impl<'a> Conversation<'a> {
             }
             if understood.aims.is_empty() {
                 self.known.spoken_of = understood.spoken_of;
+            } else {
+                // What the robot does may fill a place again.
+                self.known.looked_at.clear();
             }
         }
     }

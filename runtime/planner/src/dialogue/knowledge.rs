@@ -202,7 +202,11 @@ impl Knowledge {
             let before = entity.on.as_ref().or(entity.inside.as_ref());
             if situation.holding.as_ref() != Some(id) && support.as_ref() != before {
                 (entity.pose, entity.on, entity.inside) = (None, None, None);
-                unplaced.push((id.clone(), guess));
+                // What a person has is no obstacle, as after an offer in a plan.
+                let is_given = support.as_ref().and_then(|support| scene.entities.get(support));
+                if is_given.is_none_or(|at| at.kind != kinds::PERSON) {
+                    unplaced.push((id.clone(), guess));
+                }
             }
         }
         for (query, truth) in &self.facts {

@@ -97,7 +97,6 @@ impl Conversation<'_> {
             }
             self.look_around(driver, now);
             if let Look::At(place, _, after) = look {
-                self.known.looked_at.push(place);
                 if let Some(request) = after {
                     let mut manager =
                         DialogueManager::new(self, (planner, person, &mut *watcher), &request, now);
@@ -108,6 +107,7 @@ impl Conversation<'_> {
                     }
                     closing = Some(outcome).filter(|outcome| *outcome != Outcome::Done);
                 }
+                self.known.looked_at.push(place);
             }
             let run = self.next_run();
             now = driver.begin_run(now, &run, None);

@@ -288,6 +288,24 @@ fn knowledge_after_a_run_has_the_grip_of_what_it_took() {
 }
 
 #[test]
+fn knowledge_after_a_handover_has_no_obstacle_in_doubt() {
+    let (scene, session) = (kitchen(), session(&kitchen()));
+    let policy =
+        "policy give for hsr {\n go(kitchen_table)\n pick(mug_1)\n go(user)\n handover(mug_1, user)\n}";
+    let entities = scene.entities.iter().map(|(id, entity)| (id.clone(), entity.kind.clone())).collect();
+    let start = StartState { entities, ..StartState::default() };
+    let mut sim = Sim::new(&hsr(), &scene, SimOptions::default());
+    let engine = Engine::new(compile(&session, policy), &start).unwrap();
+    let mut engine = engine.with_capabilities(sim.capabilities());
+    let end = run(&mut engine, &mut sim, &mut (), Time::ZERO);
+    assert!(matches!(end, RunEnd::Done { .. }), "{end:?}");
+    let mut known = Knowledge::default();
+    known.learn(&engine, &session);
+    let (placed, in_doubt) = known.placed(&scene, [0.0; 3]).unwrap();
+    assert_eq!((placed.entities["mug_1"].pose, in_doubt.len()), (None, 0));
+}
+
+#[test]
 fn runtime_check_behind_an_interrupted_drive_begins_where_the_robot_stands() {
     let policy = "policy turn_back for hsr {
         try { within 2 s { go(kitchen_table) } } catch timeout { go(sink) }

@@ -324,19 +324,20 @@ fn look_does_not_see_past_the_held_object() {
             scene.entities.retain(|id, _| ["mug_1", "book"].contains(&id.as_str()));
             let mut board = scene.entities["mug_1"].clone();
             board.id = "board".into();
-            board.shape = Some(EntityShape::Box([0.02, high, high]));
+            board.shape = Some(EntityShape::Box([high, high, 0.02]));
             (board.on, board.pose) = (None, None);
             scene.entities.insert("board".into(), board);
             let mug = &mut scene.entities["mug_1"];
-            (mug.on, mug.pose.as_mut().unwrap().xyz) = (None, [3.0, 0.0, 1.0]);
+            (mug.on, mug.pose.as_mut().unwrap().xyz) = (None, [3.0, 0.0, 0.8]);
             scene.robot.holding = Some(Some("board".into()));
-            let tip_from_object = Placement { xyz: [0.1, 0.0, 0.0], rpy: [0.0, 0.0, 0.0] };
+            let tip_from_object = Placement { xyz: [0.0, 0.0, 0.15], rpy: [0.0; 3] };
             scene.robot.grip = Some(Grip { of: "board".into(), tip_from_object });
-            scene.robot.joints.insert("arm_flex_joint".into(), -1.3);
+            let joints = [("arm_lift_joint", 0.3), ("arm_flex_joint", -1.57), ("wrist_flex_joint", 0.0)];
+            scene.robot.joints.extend(joints.map(|(joint, at)| (joint.into(), at)));
         })
     };
     assert!(matches!(asked(&model, &behind_a_board(0.02), "look(mug_1)").0, MotionAnswer::Feasible(_)));
-    let (why, help) = refused(&model, &behind_a_board(3.0), "look(mug_1)");
+    let (why, help) = refused(&model, &behind_a_board(0.9), "look(mug_1)");
     assert_eq!(why.reason, InfeasibleReason::NotInView { by: Some("board".into()), aside: None });
     assert_eq!(help.as_deref(), Some("put `board` down first"));
 }
