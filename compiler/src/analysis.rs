@@ -94,6 +94,10 @@ pub(crate) trait Domain<'p> {
     fn paths(&mut self, mark: &Self::Mark) -> Vec<Self::Path> {
         vec![self.path(mark)]
     }
+    /// The paths from a mark to the end of a branch, where those of a fork that ends there are kept apart.
+    fn ends(&mut self, mark: &Self::Mark) -> Vec<Self::Path> {
+        vec![self.path(mark)]
+    }
     /// Goes along a path from the mark where it began.
     fn follow(&mut self, path: &Self::Path);
     /// Joins paths from a mark; control ends if there is none.
@@ -251,7 +255,7 @@ pub(crate) trait Domain<'p> {
             if self.assume_at(id, condition, truth) {
                 self.block(block);
                 if self.is_live() {
-                    paths.push(self.path(&mark));
+                    paths.extend(self.ends(&mark));
                 }
             }
             self.restore(&mark);

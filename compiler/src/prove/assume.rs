@@ -3,13 +3,15 @@
 use super::Prover;
 use super::effects::FactChange;
 use super::evaluation::CallFrame;
-use crate::facts::{Atom, Cause, FactKey, PathPartition, TruthSet, effort};
+use crate::facts::{Atom, Cause, Delta, FactKey, PathPartition, TruthSet, effort};
 use crate::ir::{Call, Condition, Fluent, Step, StepId, StepKind};
 
 /// Maximal number of joins that are remembered.
 const MAX_PARTITIONS: usize = 8;
 /// Maximal number of paths of a join that are kept apart.
 pub(super) const MAX_PATHS: usize = 24;
+/// Maximal number of paths that are kept apart behind a block, for each of which what follows is walked.
+const MAX_SPLIT: usize = 6;
 /// Number of writes after which a join is forgotten.
 const MAX_AGE: usize = 1000;
 
@@ -263,24 +265,76 @@ impl Prover<'_> {
         {
             return true;
         }
-        // What was written since holds on every path.
-        let later = self.state.facts.delta(partition.since);
         let (mut open, mut all) = (Vec::new(), 0_usize);
-        for path in partition.paths() {
+        self.on_each_path(partition, |this| {
             all += 1;
-            for ((fluent, key), value) in path {
-                self.state.facts.set(fluent, key, value);
+            if this.narrow(condition, outcome, cause, frame) {
+                open.push(this.state.facts.delta(here));
             }
-            self.state.facts.replay(&later);
-            if self.narrow(condition, outcome, cause, frame) {
-                open.push(self.state.facts.delta(here));
-            }
-            self.state.facts.back_to(here);
-        }
+        });
         if open.len() < all {
             self.state.facts.join(&open);
         }
         !open.is_empty()
+    }
+
+    /// Visits the facts as they are if control came along each path of a join.
+    fn on_each_path(&mut self, partition: &PathPartition, mut visit: impl FnMut(&mut Self)) {
+        let here = self.state.facts.mark();
+        // What was written since holds on every path.
+        let later = self.state.facts.delta(partition.since);
+        for path in partition.paths() {
+            for ((fluent, key), value) in path {
+                self.state.facts.set(fluent, key, value);
+            }
+            self.state.facts.replay(&later);
+            visit(self);
+            self.state.facts.back_to(here);
+        }
+    }
+
+    /// The paths from a mark to here, along each path of the last join since then that is selected; `None` if
+    /// there is none, or there are too many paths.
+    pub(super) fn split(
+        &mut self,
+        mark: usize,
+        selects: impl FnMut(&&PathPartition) -> bool,
+    ) -> Option<Vec<Delta>> {
+        let mut inside = self.state.partitions.iter().rev().take_while(|partition| partition.since > mark);
+        let partition = inside.find(selects)?.clone();
+        if partition.paths().count() > MAX_SPLIT {
+            return None;
+        }
+        let mut found = Vec::with_capacity(MAX_SPLIT);
+        self.on_each_path(&partition, |this| found.push(this.state.facts.delta(mark)));
+        Some(found)
+    }
+
+    /// Possible values of a condition. One that asks for one of several facts may hold on each path to here,
+    /// on each by another fact.
+    pub(super) fn evaluate_on_paths(&mut self, condition: &Condition, frame: CallFrame<'_>) -> TruthSet {
+        let joined = self.evaluate(condition, frame);
+        let is_mixed = joined.no.is_some() && !joined.is_false();
+        if !is_mixed || !is_choice(condition) {
+            return joined;
+        }
+        for index in (0..self.state.partitions.len()).rev() {
+            let Some(partition) = self.state.partitions.get(index).cloned() else { break };
+            if self.state.facts.mark() > partition.since + MAX_AGE
+                || !partition.differs(|fluent| mentions(condition, fluent))
+            {
+                continue;
+            }
+            let mut found: Option<TruthSet> = None;
+            self.on_each_path(&partition, |this| {
+                let value = this.evaluate(condition, frame);
+                found = Some(found.map_or(value, |found| found.join(value)));
+            });
+            if let Some(found) = found.filter(|found| !found.no.is_some()) {
+                return found;
+            }
+        }
+        joined
     }
 
     /// As [`assume`](Self::assume), without the paths of earlier joins.
@@ -362,6 +416,15 @@ impl Prover<'_> {
 fn possible(value: TruthSet, truth: bool) -> bool {
     let known = if truth { value.yes } else { value.no };
     known.is_some() || value.open.is_some()
+}
+
+/// Returns whether several facts can each make a condition true.
+fn is_choice(condition: &Condition) -> bool {
+    condition.any(&|part| match part {
+        Condition::AnyOf(_) | Condition::All(_) => true,
+        Condition::Fact(fact) => fact.args.contains(&None),
+        _ => false,
+    })
 }
 
 /// Returns whether a condition mentions a fluent.

@@ -251,7 +251,10 @@ impl<'a> Prover<'a> {
         // What it needs of a thing that it cannot be given at all is beside the point.
         let mut is_misgiven = false;
         for need in def.needs.iter().take(count).take_while(|_| !effort::is_used_up()) {
-            let (value, culprit) = self.need(need, frame);
+            let (value, culprit) = match (&need.each, &need.when) {
+                (None, None) => (self.evaluate_on_paths(&need.condition, frame), None),
+                _ => self.need(need, frame),
+            };
             let verdict = if value.no.is_some() {
                 let frame = CallFrame { each: culprit, ..frame };
                 let is_caught = self.is_caught(def, need);

@@ -66,7 +66,16 @@ impl<'a> Domain<'a> for Prover<'a> {
 
     /// Keeps the paths apart that differ in the outcome of a test of what cannot change.
     fn paths(&mut self, mark: &usize) -> Vec<Delta> {
-        self.tested_paths(*mark).unwrap_or_else(|| vec![self.path(mark)])
+        let tested = self.tested.fluent;
+        let paths = self.split(*mark, |partition| partition.differs(|fluent| fluent == tested));
+        paths.unwrap_or_else(|| vec![self.path(mark)])
+    }
+
+    /// Keeps the paths of an `else if` apart.
+    fn ends(&mut self, mark: &usize) -> Vec<Delta> {
+        let here = self.state.facts.mark();
+        let paths = self.split(*mark, |partition| partition.since == here);
+        paths.unwrap_or_else(|| vec![self.path(mark)])
     }
 
     fn follow(&mut self, path: &Delta) {

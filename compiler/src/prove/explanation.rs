@@ -268,7 +268,7 @@ impl Prover<'_> {
         let program = self.program;
         let Some((goal, span)) = &program.achieves else { return };
         let frame = CallFrame::default();
-        let value = self.evaluate(goal, frame);
+        let value = self.evaluate_on_paths(goal, frame);
         let verdict = self.proof.goal.get_or_insert(GoalVerdict { may_hold: false, is_proven: true });
         verdict.may_hold |= !value.is_false();
         verdict.is_proven &= value.is_true();

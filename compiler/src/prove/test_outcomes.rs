@@ -7,13 +7,11 @@
 use motet_syntax::ast::CompareOp;
 
 use super::Prover;
-use crate::facts::{Cause, Delta, FactKey, TruthSet, effort};
+use crate::facts::{Cause, FactKey, TruthSet, effort};
 use crate::ir::{BindingId, Condition, Fluent, Program, Term, Ty};
 
 /// Maximal number of different tests of a policy that are remembered.
 const MAX_TESTS: usize = 1000;
-/// Maximal number of paths that are kept apart behind a block, for each of which its cleanup is walked.
-const MAX_SPLIT: usize = 6;
 
 /// Table of the outcomes of tests, with the tests in the order of their keys.
 #[derive(Clone, Debug)]
@@ -194,27 +192,6 @@ impl Prover<'_> {
                 self.state.facts.forget(self.tested.fluent, key);
             }
         }
-    }
-
-    /// The paths from a mark on which a test had different outcomes; `None` if there are none, or too many.
-    pub(super) fn tested_paths(&mut self, mark: usize) -> Option<Vec<Delta>> {
-        let tested = self.tested.fluent;
-        let mut inside = self.state.partitions.iter().rev().take_while(|partition| partition.since > mark);
-        let partition = inside.find(|partition| partition.differs(|fluent| fluent == tested))?.clone();
-        if partition.paths().count() > MAX_SPLIT {
-            return None;
-        }
-        let (here, later) = (self.state.facts.mark(), self.state.facts.delta(partition.since));
-        let mut found = Vec::with_capacity(MAX_SPLIT);
-        for path in partition.paths() {
-            for ((fluent, key), value) in path {
-                self.state.facts.set(fluent, key, value);
-            }
-            self.state.facts.replay(&later);
-            found.push(self.state.facts.delta(mark));
-            self.state.facts.back_to(here);
-        }
-        Some(found)
     }
 
     /// Returns whether the outcome of a condition may follow from a test.

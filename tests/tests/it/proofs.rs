@@ -99,6 +99,38 @@ fn start_a_step_that_lacks_its_drive_is_refused_with_the_drive() {
     assert!(fix.edits[0].text.starts_with("go(mug_1)"), "{fix:?}");
 }
 
+/// Where each path makes another one of the facts that are asked for, one of them holds.
+#[test]
+fn proofs_of_one_of_several_facts_look_at_each_path() {
+    let declared = "entity b: Object\nentity c: Object\naction use_any()\n    needs f(any)\n\
+                    action use_one()\n    needs f(a) or f(b) or f(c)\ninitially not f(any)\n";
+    let paths = [
+        "if g(a) { make(a) } else { make(b) }",
+        "if g(a) { make(a) } else if g(b) { make(b) } else { make(c) }",
+        "if g(a) { make(a) pass() } else if g(b) { make(b) } else if g(c) { make(c) } else { make(a) } wave()",
+    ];
+    let goals = ["f(any)", "f(a) or f(b) or f(c)", "not (not f(a) and not f(b) and not f(c))"];
+    for (path, goal) in paths.iter().flat_map(|path| goals.map(|goal| (path, goal))) {
+        let policy = |steps: &str| format!("{declared}policy p achieves {goal} {{ {path} {steps} }}");
+        for callee in ["use_any", "use_one"] {
+            assert_eq!(
+                verdicts(callee, &policy(&format!("{callee}()"))),
+                [Verdict::Proven],
+                "{path}, {goal}"
+            );
+        }
+        let codes = |steps: &str| session_codes(None, &format!("{DOMAIN}\n{}", policy(steps)));
+        assert!(!codes("").contains(&"M0503"), "{path}, {goal}");
+        // One of the paths loses what it made.
+        assert!(codes("undo(b)").contains(&"M0503"), "{path}, {goal}");
+        assert!(codes("undo(b) use_any()").contains(&"M0501"), "{path}, {goal}");
+    }
+    // Whether the path that makes nothing has it is for the run to see.
+    let some = "initially not f(a)\npolicy p { if g(a) { make(a) } use_either() }";
+    let either = "entity b: Object\naction use_either()\n    needs f(a) or f(b)\n";
+    assert_eq!(verdicts("use_either", &format!("{either}{some}")), [Verdict::Deferred]);
+}
+
 /// A test looks at what a hand holds: both its branches may be taken, and a guard behind it asks again.
 #[test]
 fn proofs_a_test_of_the_hand_may_find_that_something_dropped() {
