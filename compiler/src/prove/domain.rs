@@ -181,6 +181,7 @@ impl<'a> Domain<'a> for Prover<'a> {
             self.control.live = false;
             return;
         }
+        self.erode();
         if self.evaluate(condition, CallFrame::default()).no.as_step().is_some() {
             // What is then seen, the world has brought about: it has undone what steps made.
             self.undo(condition, Cause::step(id));
@@ -189,6 +190,7 @@ impl<'a> Domain<'a> for Prover<'a> {
     }
 
     fn pass_time(&mut self, id: StepId) {
+        self.erode();
         let lasting = self.lasting(id);
         self.check_lasting(&lasting);
     }
@@ -245,6 +247,8 @@ impl<'a> Domain<'a> for Prover<'a> {
             let value = TruthSet::open(Cause::step(id));
             self.state.volatile.push(Volatile { fluent, key, value, when: None });
         }
+        // A name from before the block may be what another branch changes.
+        self.erode();
     }
 
     fn end_branch(&mut self) {

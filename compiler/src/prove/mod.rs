@@ -21,6 +21,7 @@ mod monitor;
 pub(crate) mod suspended;
 pub(crate) mod symbols;
 pub(crate) mod test_outcomes;
+mod volatile;
 
 use motet_syntax::effort::ErrorCount;
 use motet_syntax::{Diagnostic, Span};
@@ -36,6 +37,7 @@ use self::evaluation::CallFrame;
 use self::suspended::{ProofInput, ProofTarget};
 use self::symbols::Symbols;
 use self::test_outcomes::TestTable;
+use self::volatile::Volatile;
 use crate::analysis::{Domain, Enclosing};
 use crate::declare::{Library, PerceptionLifetime, PrimitiveDef};
 use crate::environment::Environment;
@@ -217,17 +219,6 @@ pub(crate) enum Mode {
     Explain,
     /// Only decide whether any need is refuted.
     Decide,
-}
-
-/// A fact that a monitor's reaction, or a branch beside the present one, may change at any moment.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Volatile {
-    pub(crate) fluent: Fluent,
-    pub(crate) key: FactKey,
-    /// Value that the reaction or the branch leaves.
-    pub(crate) value: TruthSet,
-    /// Span of the monitor's condition; `None` for a branch.
-    pub(crate) when: Option<Span>,
 }
 
 /// Fluents and measures that an enclosing monitor watches.

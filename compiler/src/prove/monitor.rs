@@ -2,7 +2,6 @@
 
 use motet_syntax::ast::EndKind;
 use motet_syntax::{Diagnostic, Mistake as _};
-use smallvec::SmallVec;
 
 use super::assume::{Outcome, mentions};
 use super::collector::Collector;
@@ -12,7 +11,7 @@ use super::evaluation::CallFrame;
 use super::{Mode, Prover, Volatile, Watched};
 use crate::analysis::{Domain, Enclosing};
 use crate::declare::EffectDef;
-use crate::facts::{Cause, Delta, FactKey, TruthSet, effort};
+use crate::facts::{Cause, Delta, TruthSet, effort};
 use crate::ir::{BlockSlot, Call, Condition, Fact, Reaction, Step, StepId, StepKind, When};
 
 impl<'a> Prover<'a> {
@@ -216,7 +215,11 @@ impl<'a> Prover<'a> {
             self.control.rehearsals += 1;
             self.block(body);
             for (fluent, key) in self.state.facts.touched(seen) {
-                let value = self.state.facts.get(fluent, key);
+                let value = match key.is_pattern() {
+                    true => self.state.facts.get(fluent, key),
+                    // What was forgotten of a name is what is known of all that it may be.
+                    false => self.read(fluent, key),
+                };
                 let mut rows = self.state.volatile.iter_mut().skip(first);
                 match rows.find(|row| row.fluent == fluent && row.key == key && row.when == Some(when.span)) {
                     Some(row) => {
@@ -341,51 +344,6 @@ impl<'a> Prover<'a> {
         let fired = self.program.step(id).map(|step| step.span);
         let mistake = Diagnostic::from(BodyFires { span: when.span, step, holds, fired });
         self.tell_once(mistake);
-    }
-
-    /// Weakens the facts that a reaction may just have changed.
-    pub(crate) fn erode(&mut self) {
-        if self.state.volatile.is_empty() {
-            return;
-        }
-        let rows = std::mem::take(&mut self.state.volatile);
-        let patterns: Vec<&Volatile> = rows.iter().filter(|row| row.key.is_pattern()).collect();
-        // What another reaction or the world may do to all of a pattern, it may do to this one.
-        let wider = |row: &Volatile| {
-            let (fluent, key, when) = (row.fluent, row.key, row.when);
-            let is_wider = move |other: &&&Volatile| {
-                other.fluent == fluent && other.when != when && other.key.covers(key)
-            };
-            patterns.iter().filter(is_wider).map(|other| other.value)
-        };
-        let single = rows.iter().filter(|row| !row.key.is_pattern());
-        let single = single.map(|row| {
-            let value = self.read(row.fluent, row.key).join(row.value);
-            (row, wider(row).fold(value, TruthSet::join))
-        });
-        let single: Vec<_> = single.collect();
-        for row in &patterns {
-            // A narrower row of the same reaction says more of what it covers.
-            let narrower: SmallVec<[FactKey; 16]> = rows
-                .iter()
-                .filter(|other| {
-                    (other.fluent, other.when) == (row.fluent, row.when)
-                        && other.key != row.key
-                        && row.key.covers(other.key)
-                })
-                .map(|other| other.key)
-                .collect();
-            let is_told = |key: FactKey| narrower.iter().any(|other| other.covers(key));
-            self.state.facts.change(row.fluent, row.key, |key, known| {
-                if is_told(key) { known } else { known.join(row.value) }
-            });
-        }
-        for (row, value) in single {
-            if self.state.facts.get(row.fluent, row.key) != value {
-                self.state.facts.set(row.fluent, row.key, value);
-            }
-        }
-        self.state.volatile = rows;
     }
 
     /// Assumes that a monitor sees its condition to hold. What the policy itself rules out the world may have

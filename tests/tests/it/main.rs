@@ -27,6 +27,7 @@ mod grammars;
 mod hostile;
 mod library;
 mod manners;
+mod names;
 mod notations;
 mod oracle;
 mod outcomes;

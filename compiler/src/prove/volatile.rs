@@ -1,0 +1,116 @@
+//! Volatile facts: what the world, the reaction of a monitor or a branch beside the present one may change at
+//! any moment. Before and after each step, what is known of them is weakened.
+
+use motet_syntax::Span;
+use smallvec::SmallVec;
+
+use super::Prover;
+use crate::facts::{FactKey, TruthSet, effort};
+use crate::ir::Fluent;
+
+/// A fact that a monitor's reaction, or a branch beside the present one, may change at any moment.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Volatile {
+    pub(crate) fluent: Fluent,
+    pub(crate) key: FactKey,
+    /// Value that the reaction or the branch leaves.
+    pub(crate) value: TruthSet,
+    /// Span of the monitor's condition; `None` for a branch.
+    pub(crate) when: Option<Span>,
+}
+
+impl Volatile {
+    /// Value of a fact that may be the one of this row: on paths where both say the same that, else also
+    /// unobserved.
+    fn perhaps(&self, known: TruthSet) -> TruthSet {
+        let changed = known.join(self.value);
+        if changed.same_set(known) {
+            return changed;
+        }
+        let TruthSet { yes, no, open } = self.value;
+        known.join(TruthSet::open(open.or(no).or(yes)))
+    }
+}
+
+impl Prover<'_> {
+    /// Weakens the facts that a reaction may just have changed.
+    pub(crate) fn erode(&mut self) {
+        if self.state.volatile.is_empty() {
+            return;
+        }
+        let rows = std::mem::take(&mut self.state.volatile);
+        let patterns: Vec<&Volatile> = rows.iter().filter(|row| row.key.is_pattern()).collect();
+        // What another reaction or the world may do to all of a pattern, it may do to this one.
+        let wider = |row: &Volatile| {
+            let (fluent, key, when) = (row.fluent, row.key, row.when);
+            let is_wider = move |other: &&&Volatile| {
+                other.fluent == fluent && other.when != when && other.key.covers(key)
+            };
+            patterns.iter().filter(is_wider).map(|other| other.value)
+        };
+        let single = rows.iter().filter(|row| !row.key.is_pattern());
+        let single = single.map(|row| {
+            let value = self.read(row.fluent, row.key).join(row.value);
+            (row, wider(row).fold(value, TruthSet::join))
+        });
+        let single: Vec<_> = single.collect();
+        for row in &patterns {
+            // A narrower row of the same reaction says more of what it covers.
+            let narrower: SmallVec<[FactKey; 16]> = rows
+                .iter()
+                .filter(|other| {
+                    (other.fluent, other.when) == (row.fluent, row.when)
+                        && other.key != row.key
+                        && row.key.covers(other.key)
+                })
+                .map(|other| other.key)
+                .collect();
+            let is_told = |key: FactKey| narrower.iter().any(|other| other.covers(key));
+            self.state.facts.change(row.fluent, row.key, |key, known| {
+                if is_told(key) { known } else { known.join(row.value) }
+            });
+        }
+        for (row, value) in single {
+            if self.state.facts.get(row.fluent, row.key) != value {
+                self.state.facts.set(row.fluent, row.key, value);
+            }
+        }
+        self.erode_names(&rows);
+        self.state.volatile = rows;
+    }
+
+    /// Weakens the facts about names that may be what a row is about. A name that the body has bound has no
+    /// row of its own.
+    fn erode_names(&mut self, rows: &[Volatile]) {
+        let has_names = |row: &&Volatile| self.aliased.get(row.fluent.index()).is_some_and(|is| *is);
+        let mut fluents: Vec<Fluent> = rows.iter().filter(has_names).map(|row| row.fluent).collect();
+        fluents.sort_unstable();
+        fluents.dedup();
+        let library = self.library;
+        for fluent in fluents {
+            let params = library.fluent(fluent).map_or(&[][..], |def| &def.params);
+            let of_fluent: Vec<&Volatile> = rows.iter().filter(|row| row.fluent == fluent).collect();
+            // The rows of a reaction say all of a fact that it has reached.
+            let is_told = |row: &Volatile, key| {
+                let is_own = |other: &&Volatile| other.when == row.when && other.key == key;
+                row.key.covers(key) || row.when.is_some() && of_fluent.iter().any(is_own)
+            };
+            let mut names = Vec::new();
+            self.state.facts.written_parts(fluent, |key| {
+                if self.has_symbol(fluent, key) {
+                    names.push(key);
+                }
+            });
+            effort::spend(names.len().saturating_mul(of_fluent.len()));
+            // The wider first, so that what they cover is written after them.
+            names.sort_unstable_by_key(|key| (!key.is_pattern(), *key));
+            for key in names {
+                for row in &of_fluent {
+                    if !is_told(row, key) && self.may_be_same(params, row.key, key) {
+                        self.state.facts.change(fluent, key, |_, known| row.perhaps(known));
+                    }
+                }
+            }
+        }
+    }
+}
