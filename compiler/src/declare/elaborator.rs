@@ -122,13 +122,18 @@ impl<'a> Elaborator<'a> {
                 (term, _) => term,
             };
         }
-        let actual = self.describe(&term, ty);
+        self.report_type(expr, (&term, ty), wanted);
+        Term::Unknown
+    }
+
+    /// Reports a value that does not have the expected type.
+    fn report_type(&mut self, expr: &Expr, (term, ty): (&Term, Ty), wanted: Expected<'_>) {
+        let actual = self.describe(term, ty);
         let expected = article(&self.library.type_name(wanted.ty));
         let example = self.example(wanted.ty);
-        let instead = self.instead(&term, expr, wanted.ty);
+        let instead = self.instead(term, expr, wanted.ty);
         let place = wanted.place.to_string();
         self.report(WrongType { span: expr.span, expected, actual, place, example, instead });
-        Term::Unknown
     }
 
     /// Elaborates a value of any type; the expectation resolves ambiguous notation.
@@ -220,18 +225,33 @@ impl<'a> Elaborator<'a> {
     fn list(&mut self, items: &[Expr], wanted: Option<Expected<'_>>) -> (Term, Ty) {
         let element =
             wanted.and_then(|wanted| Some(Expected { ty: wanted.ty.element()?, place: wanted.place }));
-        let mut ty = element.map_or(Ty::UNKNOWN, |element| element.ty);
+        let Some(element) = element else { return self.list_of_any(items) };
+        let terms = items.iter().map(|item| self.term_of(item, element)).collect();
+        (Term::List(terms), element.ty.list())
+    }
+
+    /// Elaborates a list whose elements may have any type: it is a list of the nearest type that all of them
+    /// have.
+    fn list_of_any(&mut self, items: &[Expr]) -> (Term, Ty) {
+        let mut ty = Ty::UNKNOWN;
         let mut terms = Vec::with_capacity(items.len());
         for (index, item) in items.iter().enumerate() {
-            match element {
-                Some(element) => terms.push(self.term_of(item, element)),
+            let before = Expected { ty, place: ValueRole::Named("an element of this list") };
+            let (mut term, actual) = self.term(item, (index > 0).then_some(before));
+            match self.library.common(ty, actual) {
+                _ if index == 0 => ty = actual,
+                Some(common) => ty = common,
                 None => {
-                    let first = Expected { ty, place: ValueRole::Named("an element of this list") };
-                    let (term, actual) = self.term(item, (index > 0).then_some(first));
-                    if index == 0 {
-                        ty = actual;
-                    }
-                    terms.push(term);
+                    self.report_type(item, (&term, actual), before);
+                    term = Term::Unknown;
+                }
+            }
+            terms.push(term);
+        }
+        if ty == Ty::plain(Base::Number) {
+            for term in &mut terms {
+                if let Term::Int(value) = *term {
+                    *term = Term::Number(value as f64);
                 }
             }
         }

@@ -321,6 +321,17 @@ impl Library {
         }
     }
 
+    /// The nearest type that values of both types have; `None` if there is none.
+    pub(crate) fn common(&self, one: Ty, other: Ty) -> Option<Ty> {
+        if self.fits(one, other) || self.fits(other, one) {
+            return Some(if self.fits(one, other) { one } else { other });
+        }
+        let (Base::Entity(kind), Base::Entity(of)) = (one.base, other.base) else { return None };
+        let parent = |kind: &Kind| self.kinds.get(kind.index())?.parent;
+        let kind = std::iter::successors(Some(kind), parent).find(|kind| self.is_kind(of, *kind))?;
+        (one.lists == other.lists).then_some(Ty { base: Base::Entity(kind), ..one })
+    }
+
     /// Spelling of a type in the language.
     #[must_use]
     pub(crate) fn type_name(&self, ty: Ty) -> String {

@@ -53,8 +53,8 @@ fn names_feel_what_another_branch_does() {
         ("parallel { { let m = look_o(\"x\") soil(m) use_not(m) } { wash(a) } } use_not(m)", vec![false; 2]),
         // Two names.
         (
-            "parallel { { let m = look_o(\"x\") wash(m) wait 1 s use(m) } { let n = look_o(\"y\") soil(n) } } \
-             use(m)",
+            "parallel { { let m = look_o(\"x\") wash(m) wait 1 s use(m) } \
+             { let n = look_o(\"y\") soil(n) } } use(m)",
             vec![false; 2],
         ),
         (
@@ -138,5 +138,21 @@ fn names_feel_what_a_reaction_does() {
         ),
     ] {
         assert_eq!(proven(body), Ok(expected), "{body}");
+    }
+}
+
+#[test]
+fn list_has_the_nearest_kind_of_its_elements() {
+    for (body, expected) in [
+        // An item may be the thing of another kind.
+        ("mark(box) each x in [a, box] at most 5 { unmark2(x) } needs_ok(box)", Ok(vec![false])),
+        ("mark(box) each x in [a, b] at most 5 { unmark2(x) } needs_ok(box)", Ok(vec![true])),
+        ("each x in [a, box] at most 5 { mark(x) needs_ok(x) }", Ok(vec![true])),
+        ("each x in [a, box] at most 5 { if x == box { mark(x) } }", Ok(vec![])),
+        // No action on an object is carried out on a container.
+        ("each x in [a, box] at most 5 { wash(x) }", Err(vec!["M0301"])),
+        ("each x in [a, 1 m] at most 5 { mark(x) }", Err(vec!["M0301"])),
+    ] {
+        assert_eq!(proven(body), expected, "{body}");
     }
 }
