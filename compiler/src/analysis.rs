@@ -16,7 +16,7 @@ use motet_syntax::ast::EndKind;
 pub(crate) use self::enclosing::{Enclosing, Ended, Handler, Leaving};
 use crate::declare::Library;
 use crate::ir::{
-    BindingId, Call, Catch, Condition, Failure, Program, Reaction, StepId, StepKind, TIMEOUT, When,
+    BindingId, Call, Catch, Condition, Failure, Program, Reaction, StepId, StepKind, TIMEOUT, Term, When,
 };
 
 /// Reason for which control leaves the straight path.
@@ -33,8 +33,16 @@ pub(crate) enum Exit {
 pub(crate) enum Loop<'p> {
     /// Up to `times` rounds, or until a test holds.
     Repeat { times: u32, until: Option<&'p Condition> },
-    /// One round for each item of a list.
-    Each { item: BindingId },
+    /// One round for each item of a list, of which some are certain.
+    Each { item: BindingId, least: usize },
+}
+
+impl Loop<'_> {
+    /// The loop over the items of a list: one that is written out has as many rounds as elements.
+    pub(crate) fn each(item: BindingId, list: &Term) -> Self {
+        let least = if let Term::List(items) = list { items.len() } else { 0 };
+        Self::Each { item, least }
+    }
 }
 
 /// Paths from the end of a loop's body.
@@ -238,9 +246,12 @@ pub(crate) trait Domain<'p> {
                 let until = until.as_ref().map(|(condition, _)| condition);
                 self.looped(id, body, Loop::Repeat { times: *times, until });
             }
-            StepKind::Each { item, body, .. } => {
+            StepKind::Each { item, list, body, .. } => {
                 self.throw(self.exhausted(), usize::MAX);
-                self.looped(id, body, Loop::Each { item: *item });
+                if list.may_lack_value() {
+                    self.throw(Some(TIMEOUT), usize::MAX);
+                }
+                self.looped(id, body, Loop::each(*item, list));
             }
             StepKind::Parallel { branches } => self.parallel(id, branches),
             StepKind::End { kind, of, .. } => self.end(Some(id), *kind, *of, step.span),
@@ -338,7 +349,7 @@ pub(crate) trait Domain<'p> {
         loop {
             self.drop_findings(findings);
             self.follow(&head);
-            if let Loop::Each { item } = how {
+            if let Loop::Each { item, .. } = how {
                 self.begin_round(item);
             }
             self.block(body);
@@ -346,7 +357,7 @@ pub(crate) trait Domain<'p> {
             let mut round = live.unwrap_or(Round { exits: Vec::new(), back: None });
             self.restore(&mark);
             let Some(next) = round.back.as_ref().and_then(|back| self.widen(&head, back, count)) else {
-                if matches!(how, Loop::Each { .. }) {
+                if matches!(how, Loop::Each { least: 0, .. }) {
                     // The list may be empty.
                     round.exits.insert(0, entry);
                 }

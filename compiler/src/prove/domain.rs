@@ -292,7 +292,8 @@ impl<'a> Domain<'a> for Prover<'a> {
     }
 
     fn begin_round(&mut self, item: BindingId) {
-        self.forget(self.symbols.of_binding(item.index()));
+        let symbol = self.symbols.of_binding(item.index());
+        self.forget(symbol.filter(|entity| self.symbols.get(*entity).is_some()));
         self.forget_tests(item);
     }
 
@@ -423,7 +424,7 @@ impl Prover<'_> {
         let Some((id, step)) = around.and_then(|id| Some((id, program.step(id)?))) else { return true };
         let (body, how) = match &step.kind {
             StepKind::Repeat { times, body, .. } => (body, Loop::Repeat { times: *times, until }),
-            StepKind::Each { item, body, .. } => (body, Loop::Each { item: *item }),
+            StepKind::Each { item, list, body, .. } => (body, Loop::each(*item, list)),
             _ => return true,
         };
         let end = body.iter().position(|id| *id == point).unwrap_or(body.len());

@@ -1,9 +1,11 @@
 //! Symbols: entities behind bindings. A description that fits exactly one entity of the scene denotes it; any
 //! other binding is a symbol, an entity of its own that may be one of several.
 
+use rustc_hash::FxHashMap;
+
 use crate::declare::Library;
 use crate::environment::Environment;
-use crate::ir::{Base, Binding, Entity, Kind, Program, Ty};
+use crate::ir::{Base, Binding, Entity, Kind, Program, StepKind, Term, Ty};
 
 /// Entities and symbols of the bindings.
 #[derive(Clone, Debug, Default)]
@@ -43,6 +45,20 @@ pub(crate) fn described(
     Some(all)
 }
 
+/// By the binding of an item of an `each`, the elements of its list, if they are entities that are written
+/// out.
+fn items(program: &Program) -> FxHashMap<usize, Vec<Entity>> {
+    let entity = |term: &Term| if let Term::Entity(entity) = term { Some(*entity) } else { None };
+    let loops = program.steps.iter().filter_map(|step| {
+        let StepKind::Each { item, list: Term::List(terms), .. } = &step.kind else { return None };
+        let mut all = terms.iter().map(entity).collect::<Option<Vec<_>>>()?;
+        all.sort_unstable();
+        all.dedup();
+        Some((item.index(), all))
+    });
+    loops.collect()
+}
+
 impl Symbols {
     pub(crate) fn new(program: &Program, library: &Library, environment: &Environment) -> Self {
         let first = Self::first(environment);
@@ -59,12 +75,16 @@ impl Symbols {
 
     /// Adds the bindings that the program has gained.
     pub(crate) fn extend(&mut self, program: &Program, library: &Library, environment: &Environment) {
-        for binding in program.bindings.iter().skip(self.bindings.len()) {
+        if self.bindings.len() >= program.bindings.len() {
+            return;
+        }
+        let items = items(program);
+        for (index, binding) in program.bindings.iter().enumerate().skip(self.bindings.len()) {
             let Ty { base: Base::Entity(kind), lists: 0 } = binding.ty else {
                 self.bindings.push(None);
                 continue;
             };
-            let found = described(binding, library, environment);
+            let found = items.get(&index).cloned().or_else(|| described(binding, library, environment));
             let entity = match found.as_deref() {
                 Some([only]) => Some(*only),
                 Some([]) | None => self.add(kind, None),

@@ -4,6 +4,8 @@ use motet_graph::{NodeKind, Verdict};
 use motet_syntax::{FileId, Source, Sources};
 use motet_tests::setup;
 
+use crate::soundness::session_codes;
+
 const DOMAIN: &str = "
 entity a, b: Object
 entity box: Container
@@ -11,6 +13,7 @@ fluent ok(e: Entity)
 fluent clean(o: Object)
 fluent ready()
 perception look_o(what: Text) -> Object
+perception look_all(what: Text) -> List<Object>
 action wash(o: Object)
     makes clean(o)
 action soil(o: Object)
@@ -155,4 +158,26 @@ fn list_has_the_nearest_kind_of_its_elements() {
     ] {
         assert_eq!(proven(body), expected, "{body}");
     }
+}
+
+#[test]
+fn each_runs_a_round_for_every_element_that_is_written_out() {
+    for (body, expected) in [
+        ("soil(a) each x in [a] at most 1 { wash(x) } use(a)", Ok(vec![true])),
+        // No round is walked alone: which of them it is about is not known.
+        ("soil(a) each x in [a, b] at most 2 { wash(x) } use(a)", Ok(vec![false])),
+        ("wash(a) wash(b) each x in [a, b] at most 2 { use(x) soil(x) } use_not(b)", Ok(vec![false; 2])),
+        ("mark(box) mark(b) each x in [a] at most 2 { unmark2(x) } needs_ok(b)", Ok(vec![true])),
+        // A list that a step finds may be empty.
+        (
+            "soil(a) let l = look_all(\"x\") each x in l at most 2 { wash(x) wash(a) } use(a)",
+            Err(vec!["M0501"]),
+        ),
+    ] {
+        assert_eq!(proven(body), expected, "{body}");
+    }
+    let doors = "policy p achieves open(drawer_1) and open(cupboard_1) { \
+                 each c in [drawer_1, cupboard_1] at most 2 { go(c) open(c) } }";
+    let found = session_codes(Some("kitchen"), doors);
+    assert!(!found.contains(&"M0503"), "{found:?}");
 }
