@@ -122,6 +122,14 @@ impl PathPartition {
         })
     }
 
+    /// Maps the value of each atom on each path.
+    pub(crate) fn change(&mut self, change: impl Fn(Atom, TruthSet) -> TruthSet) {
+        effort::spend(self.values.len());
+        for (atom, value) in self.atoms.iter().cycle().zip(&mut self.values) {
+            *value = change(*atom, *value);
+        }
+    }
+
     /// Values of the atoms at the end of each path.
     pub(crate) fn paths(&self) -> impl Iterator<Item = impl Iterator<Item = (Atom, TruthSet)> + '_> + '_ {
         let paths = self.values.chunks(self.atoms.len().max(1));

@@ -136,6 +136,7 @@ impl<'a> Prover<'a> {
         self.state.watched.push(watched);
         let volatile = self.state.volatile.len();
         self.free(id, whens);
+        self.erode();
         if self.control.live {
             self.block(body);
             self.leave_body(id, whens);

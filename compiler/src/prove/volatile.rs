@@ -5,7 +5,7 @@ use motet_syntax::Span;
 use smallvec::SmallVec;
 
 use super::Prover;
-use crate::facts::{FactKey, TruthSet, effort};
+use crate::facts::{Atom, FactKey, TruthSet, effort};
 use crate::ir::Fluent;
 
 /// A fact that a monitor's reaction, or a branch beside the present one, may change at any moment.
@@ -76,7 +76,35 @@ impl Prover<'_> {
             }
         }
         self.erode_names(&rows);
+        self.erode_paths(&rows);
         self.state.volatile = rows;
+    }
+
+    /// Weakens the facts on the paths that have met. Where the join of the paths stays the same, nothing else
+    /// says that each of them has changed.
+    fn erode_paths(&mut self, rows: &[Volatile]) {
+        let mut partitions = std::mem::take(&mut self.state.partitions);
+        let is_volatile = |fluent| rows.iter().any(|row| row.fluent == fluent);
+        for partition in partitions.iter_mut().filter(|partition| partition.differs(is_volatile)) {
+            partition.change(|(fluent, key), known| {
+                let of_fluent = rows.iter().filter(|row| row.fluent == fluent);
+                of_fluent.fold(known, |known, row| match row.key.covers(key) {
+                    true => known.join(row.value),
+                    false if self.is_perhaps(row, (fluent, key), rows) => row.perhaps(known),
+                    false => known,
+                })
+            });
+        }
+        self.state.partitions = partitions;
+    }
+
+    /// Returns whether a row may be about a fact of a name. The rows of a reaction say all of a fact that it
+    /// has reached.
+    fn is_perhaps(&self, row: &Volatile, (fluent, key): Atom, rows: &[Volatile]) -> bool {
+        let params = self.library.fluent(fluent).map_or(&[][..], |def| &def.params);
+        let is_own = |other: &Volatile| (other.fluent, other.key, other.when) == (fluent, key, row.when);
+        let is_told = row.key.covers(key) || row.when.is_some() && rows.iter().any(is_own);
+        !is_told && self.has_symbol(fluent, key) && self.may_be_same(params, row.key, key)
     }
 
     /// Weakens the facts about names that may be what a row is about. A name that the body has bound has no
@@ -86,27 +114,19 @@ impl Prover<'_> {
         let mut fluents: Vec<Fluent> = rows.iter().filter(has_names).map(|row| row.fluent).collect();
         fluents.sort_unstable();
         fluents.dedup();
-        let library = self.library;
         for fluent in fluents {
-            let params = library.fluent(fluent).map_or(&[][..], |def| &def.params);
-            let of_fluent: Vec<&Volatile> = rows.iter().filter(|row| row.fluent == fluent).collect();
-            // The rows of a reaction say all of a fact that it has reached.
-            let is_told = |row: &Volatile, key| {
-                let is_own = |other: &&Volatile| other.when == row.when && other.key == key;
-                row.key.covers(key) || row.when.is_some() && of_fluent.iter().any(is_own)
-            };
             let mut names = Vec::new();
             self.state.facts.written_parts(fluent, |key| {
                 if self.has_symbol(fluent, key) {
                     names.push(key);
                 }
             });
-            effort::spend(names.len().saturating_mul(of_fluent.len()));
+            effort::spend(names.len().saturating_mul(rows.len()));
             // The wider first, so that what they cover is written after them.
             names.sort_unstable_by_key(|key| (!key.is_pattern(), *key));
             for key in names {
-                for row in &of_fluent {
-                    if !is_told(row, key) && self.may_be_same(params, row.key, key) {
+                for row in rows.iter().filter(|row| row.fluent == fluent) {
+                    if self.is_perhaps(row, (fluent, key), rows) {
                         self.state.facts.change(fluent, key, |_, known| row.perhaps(known));
                     }
                 }

@@ -22,6 +22,8 @@ action use(o: Object)
     needs clean(o)
 action use_not(o: Object)
     needs not clean(o)
+action use_any()
+    needs clean(a) or clean(b)
 action mark(e: Entity)
     makes ok(e)
 action unmark2(e: Entity)
@@ -124,6 +126,18 @@ fn watched_facts_may_change_while_a_policy_waits() {
                 { if clean(a) { wait 3 s if not clean(a) { mark(a) } } } needs_notok(a)";
     // The second test may find that it is no longer clean.
     assert_eq!(proven(body), Err(vec!["M0501"]));
+}
+
+#[test]
+fn watched_facts_may_change_on_each_path() {
+    let seen = "if clean(a) { let _q = 1 } else { if clean(b) { let _r = 1 } else { cannot \"neither\" } }";
+    // One of them is clean, whichever it is, until the world changes that.
+    let body = "soil(a) soil(b) if ready() { wash(a) } else { wash(b) } use_any()";
+    assert_eq!(proven(body), Ok(vec![true]));
+    let whens = "(clean(a) and ready()) or (clean(b) and ready())";
+    let body =
+        format!("soil(a) soil(b) monitor when {whens} then pause during {{ {seen} wait 5 s use_any() }}");
+    assert_eq!(proven(&body), Ok(vec![false]));
 }
 
 #[test]
