@@ -10,6 +10,7 @@ use crate::facts::{ANY, FactKey, TruthSet, arg};
 use crate::ir::{Condition, Fact, Kind, MotionKind, Term};
 use crate::plan::achievers::{Achiever, CandidateCall, Subgoal, entity_of};
 use crate::prove::Prover;
+use crate::prove::candidates::Candidates;
 use crate::prove::evaluation::CallFrame;
 
 /// Cost of a call.
@@ -314,9 +315,10 @@ impl<'p, 'a> Estimate<'p, 'a> {
 
     /// Cost of a quantified need: the sum over the entities for which it is asked.
     fn each(&mut self, need: &NeedDef, kind: Kind, frame: CallFrame<'_>) -> Option<Cost> {
-        let (candidates, others) = self.prover.asked(need.when.as_ref(), kind, frame);
-        let mut all = if others { self.whatever_else(&need.condition, frame) } else { Cost::default() };
-        for candidate in candidates {
+        let Candidates { known, doubtful, rest } = self.prover.asked(need, kind, frame);
+        let has_others = rest.is_some() || !doubtful.is_empty();
+        let mut all = if has_others { self.whatever_else(&need.condition, frame) } else { Cost::default() };
+        for candidate in known {
             let frame = CallFrame { each: Some(candidate), ..frame };
             all = all.and(self.condition(&need.condition, true, frame)?);
         }

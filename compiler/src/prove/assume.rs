@@ -139,7 +139,7 @@ impl Prover<'_> {
             let Condition::Fact(fact) = part else { continue };
             let Some(of) = self.held_value(fact.fluent) else { continue };
             let is_held = |known: TruthSet| if of { known.yes.is_some() } else { known.no.is_some() };
-            let Some(key) = self.key(fact, CallFrame::default()) else { continue };
+            let key = self.widest_key(fact, CallFrame::default());
             let atom = (fact.fluent, key);
             let known = self.evaluate(part, CallFrame::default());
             // Where nothing is known, a step may have filled the hand.

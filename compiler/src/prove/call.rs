@@ -4,6 +4,7 @@ use motet_syntax::{Diagnostic, Mistake, Severity, Span};
 use smallvec::SmallVec;
 
 use super::assume::Outcome;
+use super::candidates::Candidates;
 use super::diagnostics::{Refuted, Stale};
 use super::effects::{Certainty, FactChange, weaken};
 use super::evaluation::{CallFrame, MAX_ALIASES};
@@ -357,14 +358,19 @@ impl<'a> Prover<'a> {
             };
             return (value, None);
         };
-        let (candidates, others) = self.asked(need.when.as_ref(), kind, frame);
-        let mut all = TruthSet::yes(Cause::NOTHING);
-        let (mut culprit, mut unknown) = (None, None);
-        for candidate in candidates {
+        let Candidates { known, doubtful, rest } = self.asked(need, kind, frame);
+        let (mut all, mut culprit, mut unknown) = (TruthSet::yes(Cause::NOTHING), None, None);
+        let candidates = known.iter().map(|it| (it, false)).chain(doubtful.iter().map(|it| (it, true)));
+        for (candidate, is_doubtful) in candidates {
+            let candidate = *candidate;
             let frame = CallFrame { each: Some(candidate), ..frame };
             let when =
                 need.when.as_ref().map_or(TruthSet::yes(Cause::NOTHING), |when| self.evaluate(when, frame));
-            let value = when.not().or(self.evaluate(&need.condition, frame));
+            let mut value = when.not().or(self.evaluate(&need.condition, frame));
+            if is_doubtful && !value.is_true() {
+                // It may be of another kind, and then it does not count.
+                value = TruthSet::NOTHING_KNOWN;
+            }
             if value.no.is_some() && culprit.is_none() {
                 culprit = Some(candidate);
             }
@@ -373,7 +379,7 @@ impl<'a> Prover<'a> {
             }
             all = all.and(value);
         }
-        if others {
+        if rest.is_some() {
             all = all.and(TruthSet::NOTHING_KNOWN.or(TruthSet::NOTHING_KNOWN));
         }
         (all, culprit.or(unknown))

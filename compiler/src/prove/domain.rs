@@ -380,11 +380,9 @@ impl Prover<'_> {
     pub(super) fn await_condition(&mut self, condition: &Condition, truth: bool, cause: Cause) {
         match condition {
             Condition::Fact(fact) => {
-                let Some(key) = self.key(fact, CallFrame::default()) else { return };
-                if key.is_pattern() && truth {
-                    // Some entity has it, but which is not known.
-                    return self.doubt(condition, cause);
-                }
+                // Some entity has it, but which is not known.
+                let key = self.key(fact, CallFrame::default()).filter(|key| !(key.is_pattern() && truth));
+                let Some(key) = key else { return self.doubt(condition, cause) };
                 let known = self.evaluate(condition, CallFrame::default());
                 if !(if truth { known.is_true() } else { known.is_false() }) {
                     let new = TruthSet::of(truth, cause);

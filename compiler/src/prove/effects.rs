@@ -2,17 +2,18 @@
 
 use std::cell::OnceCell;
 
-use motet_syntax::ast::{CompareOp, PrimitiveKind};
+use motet_syntax::ast::PrimitiveKind;
 
 use super::Prover;
 use super::call::pose_step;
+use super::candidates::Candidates;
 use super::evaluation::{CallFrame, MAX_ALIASES};
 use crate::facts::{ANY, Atom, Cause, FactKey, TruthSet, effort};
 use smallvec::SmallVec;
 use smol_str::SmolStr;
 
 use crate::declare::{EffectDef, PerceptionLifetime, PrimitiveDef};
-use crate::ir::{Condition, Entity, Fact, Fluent, Kind, StepId, Term, Ty};
+use crate::ir::{Entity, Fact, Fluent, Kind, StepId, Term, Ty};
 
 /// Maximal number of facts that one with symbols may be, before all facts of its fluent are weakened.
 const MAX_INSTANCES: usize = 4096;
@@ -45,7 +46,7 @@ impl FactChange {
 
 /// Certainty of the condition of an effect.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub(super) enum Certainty {
+pub(crate) enum Certainty {
     Always,
     Sometimes,
     Unknown,
@@ -54,7 +55,7 @@ pub(super) enum Certainty {
 }
 
 /// Entities that a contract mentions: usually few.
-type Entities = SmallVec<[Entity; 8]>;
+pub(super) type Entities = SmallVec<[Entity; 8]>;
 
 impl Prover<'_> {
     /// Computes the changes of effects in the present state.
@@ -104,10 +105,15 @@ impl Prover<'_> {
         frame: CallFrame<'_>,
         changes: &mut Vec<FactChange>,
     ) {
-        let (known, rest) = self.candidates(effect.when.as_ref(), kind, frame);
+        let Candidates { known, doubtful, rest } = self.candidates(effect.when.as_ref(), kind, frame);
         for candidate in &known {
             self.change(effect, CallFrame { each: Some(*candidate), ..frame }, changes);
         }
+        let first = changes.len();
+        for candidate in &doubtful {
+            self.change(effect, CallFrame { each: Some(*candidate), ..frame }, changes);
+        }
+        changes.iter_mut().skip(first).for_each(|change| change.sure = change.sure.max(Certainty::Unknown));
         let Some(sure) = rest else { return };
         if self.covers(effect, kind) {
             // Without an argument that tells them apart, it happens if there is one of them.
@@ -151,66 +157,6 @@ impl Prover<'_> {
         })
     }
 
-    /// Entities of a kind for which `when` may hold, and whether it may hold for others too.
-    fn candidates(
-        &self,
-        when: Option<&Condition>,
-        kind: Kind,
-        frame: CallFrame<'_>,
-    ) -> (Entities, Option<Certainty>) {
-        match when {
-            None => (Entities::new(), Some(Certainty::Always)),
-            Some(
-                Condition::Compare(CompareOp::Equal, Term::Each, other)
-                | Condition::Compare(CompareOp::Equal, other, Term::Each),
-            ) => {
-                let only = self.argument(other, frame).map(Entity);
-                let fits = |entity: &Entity| self.is_of_kind(*entity, kind);
-                (only.filter(fits).into_iter().collect(), None)
-            }
-            Some(Condition::Fact(fact)) => {
-                let Some(pattern) = self.key(fact, CallFrame { each: None, ..frame }) else {
-                    return (Entities::new(), None);
-                };
-                let place = fact.args.iter().position(|arg| *arg == Some(Term::Each));
-                let Some(place) = place else { return (self.of_kind(kind, usize::MAX).into(), None) };
-                let mut known = Entities::new();
-                let mut rest = TruthSet::default();
-                let has_entry = self.state.facts.entry(fact.fluent, pattern).is_some();
-                let aliases = if has_entry {
-                    Some(SmallVec::from_slice(&[pattern]))
-                } else {
-                    self.aliases(fact.fluent, pattern)
-                };
-                let Some(aliases) = aliases else {
-                    return (Entities::new(), Some(Certainty::Unknown));
-                };
-                for pattern in aliases {
-                    rest = rest.join(self.state.facts.get(fact.fluent, pattern));
-                    let mut parts: SmallVec<[FactKey; 8]> = SmallVec::new();
-                    self.state.facts.parts(fact.fluent, pattern, |key| parts.push(key));
-                    for key in parts {
-                        let value = self.state.facts.get(fact.fluent, key);
-                        let entity = Entity(key.arg(place));
-                        if value.is_false() {
-                            continue;
-                        }
-                        if key.arg(place) == ANY {
-                            // It may hold for any of them.
-                            rest = rest.join(value);
-                        } else if self.is_of_kind(entity, kind) {
-                            known.push(entity);
-                        }
-                    }
-                }
-                known.sort_unstable();
-                known.dedup();
-                (known, if rest.is_false() { None } else { certainty(rest) })
-            }
-            Some(_) => (self.of_kind(kind, usize::MAX).into(), None),
-        }
-    }
-
     /// A fact or pattern with all that it may be, whatever its symbols are.
     pub(super) fn instances(&self, (fluent, key): Atom) -> Vec<Atom> {
         let all = self.aliases(fluent, key);
@@ -222,7 +168,7 @@ impl Prover<'_> {
 
     /// A pattern with all its instances under the entities that its symbols may be; `None` if these are too
     /// many.
-    fn aliases(&self, fluent: Fluent, pattern: FactKey) -> Option<SmallVec<[FactKey; 4]>> {
+    pub(super) fn aliases(&self, fluent: Fluent, pattern: FactKey) -> Option<SmallVec<[FactKey; 4]>> {
         let mut found: SmallVec<[FactKey; 4]> = SmallVec::from_slice(&[pattern]);
         if self.symbols.is_empty() {
             return Some(found);
@@ -245,22 +191,6 @@ impl Prover<'_> {
             found.extend(may_be.iter().flat_map(|entity| known.iter().map(|key| key.with(index, entity.0))));
         }
         Some(found)
-    }
-
-    /// Entities for which a quantified need is asked, and whether there may be others.
-    pub(crate) fn asked(
-        &self,
-        when: Option<&Condition>,
-        kind: Kind,
-        frame: CallFrame<'_>,
-    ) -> (Entities, bool) {
-        match when {
-            None => (self.of_kind(kind, usize::MAX).into(), false),
-            Some(_) => {
-                let (known, rest) = self.candidates(when, kind, frame);
-                (known, rest.is_some())
-            }
-        }
     }
 
     /// Writes changes, negative ones first, so that a fact that is both made and unmade holds.
@@ -354,7 +284,10 @@ impl Prover<'_> {
         let mut atoms = Vec::new();
         for fact in facts {
             let is_derived = self.library.fluent(fact.fluent).is_some_and(|def| def.derived);
-            let Some(key) = self.key(fact, CallFrame::default()).filter(|_| !is_derived) else { continue };
+            if is_derived {
+                continue;
+            }
+            let key = self.widest_key(fact, CallFrame::default());
             atoms.extend(self.instances((fact.fluent, key)));
             // What is known of other names may be about the same.
             let params = self.library.fluent(fact.fluent).map_or(&[][..], |def| &def.params);
@@ -542,7 +475,7 @@ pub(super) fn weaken(first: &mut Vec<FactChange>, later: &[FactChange]) {
     first.sort_by_key(|change| change.truth);
 }
 
-fn certainty(value: TruthSet) -> Option<Certainty> {
+pub(super) fn certainty(value: TruthSet) -> Option<Certainty> {
     if value.open.is_some() {
         Some(Certainty::Unknown)
     } else if value.no.is_some() && value.yes.is_some() {

@@ -56,6 +56,15 @@ impl Prover<'_> {
         Some(key)
     }
 
+    /// Key of a fact, in which each argument that is unknown is `any`.
+    pub(super) fn widest_key(&self, fact: &Fact, frame: CallFrame<'_>) -> FactKey {
+        let args = fact.args.iter().enumerate().map(|(index, term)| match term {
+            None => self.only_case(fact.fluent, index).unwrap_or(ANY),
+            Some(term) => self.argument(term, frame).unwrap_or(ANY),
+        });
+        FactKey::new(args)
+    }
+
     /// The case that `any` stands for, where the enumeration of a parameter has one: the hand of a robot with
     /// one hand.
     fn only_case(&self, fluent: Fluent, index: usize) -> Option<u16> {

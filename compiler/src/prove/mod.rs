@@ -10,6 +10,7 @@
 
 mod assume;
 mod call;
+pub(crate) mod candidates;
 mod collector;
 pub(crate) mod diagnostics;
 mod domain;

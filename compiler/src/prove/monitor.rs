@@ -191,7 +191,7 @@ impl<'a> Prover<'a> {
     fn free(&mut self, id: StepId, whens: &'a [When]) {
         let mut free = Vec::new();
         for when in whens {
-            free_facts(&when.condition, (false, when.hold_secs == 0.0), &mut free);
+            self.free_facts(&when.condition, (false, when.hold_secs == 0.0), &mut free);
         }
         let value = TruthSet::open(Cause::step(id));
         let rows =
@@ -380,10 +380,11 @@ impl<'a> Prover<'a> {
     /// truth, and whether it says anything.
     pub(super) fn doubt_free(&mut self, condition: &Condition, known: (bool, bool), cause: Cause) {
         let (mut doubtful, mut free) = (Vec::new(), Vec::new());
-        free_facts(condition, known, &mut free);
+        self.free_facts(condition, known, &mut free);
         for fact in free {
             let is_derived = self.library.fluent(fact.fluent).is_some_and(|def| def.derived);
-            if let Some(key) = self.key(fact, CallFrame::default()).filter(|_| !is_derived) {
+            if !is_derived {
+                let key = self.widest_key(fact, CallFrame::default());
                 doubtful.push(FactChange::perhaps(fact.fluent, key));
             }
         }
@@ -472,18 +473,48 @@ impl<'a> Prover<'a> {
         self.state.partitions = partitions;
     }
 
+    /// Collects the facts whose truth does not follow from that of the condition; `known` is the truth of the
+    /// condition, and whether it says anything.
+    /// That none has a fact says so of each; of some that have it, others may take the place. Nothing is
+    /// known of a fact about nobody knows whom.
+    fn free_facts<'c>(
+        &self,
+        condition: &'c Condition,
+        (truth, is_known): (bool, bool),
+        free: &mut Vec<&'c Fact>,
+    ) {
+        let is_settled = |fact: &Fact| {
+            let is_named = || self.key(fact, CallFrame::default()).is_some();
+            is_known && !(truth && fact.args.contains(&None)) && is_named()
+        };
+        match condition {
+            Condition::Fact(fact) if is_settled(fact) => {}
+            Condition::Fact(fact) => free.push(fact),
+            Condition::Not(inner) => self.free_facts(inner, (!truth, is_known), free),
+            Condition::All(parts) | Condition::AnyOf(parts) => {
+                let decides = truth == matches!(condition, Condition::All(_)) || parts.len() == 1;
+                parts.iter().for_each(|part| self.free_facts(part, (truth, is_known && decides), free));
+            }
+            Condition::Literal(_)
+            | Condition::Compare(..)
+            | Condition::MonitoredMeasure(_)
+            | Condition::MonitoredFluent(_)
+            | Condition::Unknown => {}
+        }
+    }
+
     /// Leaves open the facts of later conditions of a monitor, and of the monitors in its body: they may
     /// change at the same time, and then this reaction comes first.
     fn forget_later(&mut self, id: StepId, later: &'a [When]) {
         let program = self.program;
         let mut free = Vec::new();
-        later.iter().for_each(|when| free_facts(&when.condition, (false, false), &mut free));
+        later.iter().for_each(|when| self.free_facts(&when.condition, (false, false), &mut free));
         let inside = (id.0 + 1..).map(StepId).map_while(|step| Some((step, program.step(step)?)));
         for (_, step) in inside.take_while(|(step, _)| program.around(*step).any(|(around, _)| around == id))
         {
             effort::spend(1);
             if let StepKind::Monitor { whens, .. } = &step.kind {
-                whens.iter().for_each(|when| free_facts(&when.condition, (false, false), &mut free));
+                whens.iter().for_each(|when| self.free_facts(&when.condition, (false, false), &mut free));
             }
         }
         effort::spend(effort::VISIT * free.len());
@@ -511,24 +542,4 @@ pub(super) struct LastingWhen<'a> {
     by: StepId,
     /// Step of its body that has made it certain.
     step: StepId,
-}
-
-/// Collects the facts whose truth does not follow from that of the condition; `known` is the truth of the
-/// condition, and whether it says anything.
-fn free_facts<'c>(condition: &'c Condition, (truth, is_known): (bool, bool), free: &mut Vec<&'c Fact>) {
-    match condition {
-        // That none has it says so of each; of some that have it, others may take the place.
-        Condition::Fact(fact) if is_known && !(truth && fact.args.contains(&None)) => {}
-        Condition::Fact(fact) => free.push(fact),
-        Condition::Not(inner) => free_facts(inner, (!truth, is_known), free),
-        Condition::All(parts) | Condition::AnyOf(parts) => {
-            let decides = truth == matches!(condition, Condition::All(_)) || parts.len() == 1;
-            parts.iter().for_each(|part| free_facts(part, (truth, is_known && decides), free));
-        }
-        Condition::Literal(_)
-        | Condition::Compare(..)
-        | Condition::MonitoredMeasure(_)
-        | Condition::MonitoredFluent(_)
-        | Condition::Unknown => {}
-    }
 }

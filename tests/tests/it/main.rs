@@ -39,6 +39,7 @@ mod planning;
 mod promises;
 mod prompt;
 mod proofs;
+mod quantified;
 mod recovery;
 mod replies;
 mod request;
