@@ -5,8 +5,9 @@ use motet_syntax::Span;
 use motet_syntax::ast::{Call, CompareOp, Expr, ExprKind, POSE, TextPart};
 use smol_str::SmolStr;
 
-use super::diagnostics::{MissingArgument, TooManyArguments, UnknownParameter, WrongType};
+use super::diagnostics::{LimitExceeded, MissingArgument, TooManyArguments, UnknownParameter, WrongType};
 use super::elaborator::{Elaborator, ValueRole};
+use crate::facts::effort;
 use crate::ir::{Base, Condition, Term, Ty};
 
 /// The number of elements.
@@ -17,6 +18,9 @@ pub(crate) const FIRST: SmolStr = SmolStr::new_static("first");
 pub(crate) const IS_EMPTY: SmolStr = SmolStr::new_static("is_empty");
 /// The parameter of all three.
 pub(crate) const OF: SmolStr = SmolStr::new_static("of");
+
+/// Maximal size of a value: its parts, and the bytes of its texts.
+const MAX_SIZE: usize = 1 << 16;
 
 impl Elaborator<'_> {
     /// Returns whether a call has a value: of a measure, of a list, or a pose.
@@ -111,16 +115,37 @@ impl Elaborator<'_> {
     /// Elaborates a text with values. Any value but a pose can be said.
     pub(super) fn template(&mut self, parts: &[TextPart]) -> (Term, Ty) {
         let mut said = Vec::with_capacity(parts.len());
+        let mut size = 0;
         for part in parts {
             said.push(match part {
                 TextPart::Literal(text) => (Term::Text(text.clone()), Ty::TEXT),
-                TextPart::Value(value) => self.said(value),
+                TextPart::Value(value) => {
+                    let (term, ty) = self.said(value);
+                    (self.bounded(term, value.span, &mut size), ty)
+                }
             });
         }
         if said.iter().any(|(term, _)| *term == Term::Unknown) {
             return (Term::Unknown, Ty::TEXT);
         }
         (Term::Template(said), Ty::TEXT)
+    }
+
+    /// The part of a value whose other parts have a size. A name stands for its value, so a few lines could
+    /// ask for any number of parts.
+    pub(super) fn bounded(&mut self, part: Term, span: Span, size: &mut usize) -> Term {
+        if *size > MAX_SIZE {
+            // It was reported.
+            return Term::Unknown;
+        }
+        let added = part.size();
+        effort::spend(added / 16);
+        *size = size.saturating_add(added);
+        if *size <= MAX_SIZE {
+            return part;
+        }
+        self.report(LimitExceeded { span, what: "parts and bytes of text in a value", limit: MAX_SIZE });
+        Term::Unknown
     }
 
     fn said(&mut self, value: &Expr) -> (Term, Ty) {

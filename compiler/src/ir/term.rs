@@ -96,6 +96,12 @@ impl Term {
         one.into_iter().chain(other).chain(rest).chain(said.iter().map(|(part, _)| part))
     }
 
+    /// Number of its parts and of the bytes of its texts.
+    pub(crate) fn size(&self) -> usize {
+        let own = if let Self::Text(text) = self { 1 + text.len() } else { 1 };
+        self.parts().fold(own, |size, part| size.saturating_add(part.size()))
+    }
+
     /// Returns whether the term or a subterm satisfies a predicate.
     pub(crate) fn any(&self, is_one: &impl Fn(&Self) -> bool) -> bool {
         is_one(self) || self.parts().any(|part| part.any(is_one))

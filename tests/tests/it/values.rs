@@ -71,6 +71,26 @@ fn values_are_said_as_people_do() {
 }
 
 #[test]
+fn values_that_double_in_the_run_end_the_policy() {
+    let (robot, scene) = (setup::robot("hsr"), setup::scene("kitchen"));
+    let (session, _) = setup::session(Some(&robot), Some(&scene), &mut Sources::default());
+    let play = |levels: usize| {
+        let lets = (1..levels).map(|at| format!("let x{at} = \"{{x{}}}{{x{}}}\"", at - 1, at - 1));
+        let lets = lets.collect::<Vec<_>>().join(" ");
+        let policy = format!("policy p {{ let x0 = ask(\"Why?\") {lets} say(\"done\") }}");
+        let compiled = session.compile(&read(&Source::new("p", policy), FileId(0)), None);
+        let graph = compiled.graph.unwrap_or_else(|| panic!("{:?}", compiled.diagnostics));
+        let mut sim = Sim::new(&robot, &scene, SimOptions::default());
+        let mut engine = Engine::new(graph, &StartState::default()).unwrap();
+        let mut said = Transcript::default();
+        run(&mut engine, &mut sim, &mut said, Time::ZERO);
+        said.0
+    };
+    assert_eq!(play(8), ["done"]);
+    assert_eq!(play(60), Vec::<String>::new());
+}
+
+#[test]
 fn values_that_are_none_have_a_place() {
     let json = r#"{"motet": 1, "policy": "p", "steps": [{"do": "say", "text": "an {open brace"}]}"#;
     let parsed = read(&Source::new("p.json", json), FileId(0));

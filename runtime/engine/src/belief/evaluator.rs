@@ -26,6 +26,10 @@ pub(crate) enum Freshness {
 /// last.
 const DERIVED: &str = motet_stdlib::lang::fluents::REACHABLE;
 
+/// Maximal size of a value that is worked out: the bytes of its text, or its parts and the bytes of their texts.
+/// Names stand for values, so a few steps could ask for any number.
+const MAX_SIZE: usize = 1 << 16;
+
 /// Judges conditions. Cheap to make.
 pub(crate) struct Evaluator<'a> {
     pub(crate) graph: &'a Graph,
@@ -84,7 +88,8 @@ impl Evaluator<'_> {
                 self.reading(query)
             }
             Term::List(items) => {
-                items.iter().map(|item| self.term(item)).collect::<Option<Vec<_>>>().map(Value::List)
+                let items: Option<Vec<_>> = items.iter().map(|item| self.term(item)).collect();
+                items.map(Value::List).filter(|list| size(list) <= MAX_SIZE)
             }
             Term::Arith(operation, left, right) => {
                 let (left, right) = (self.term(left), self.term(right));
@@ -104,7 +109,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A text with its values. All are looked at, so that everything that is missing is asked for together.
+    /// A text with its values; `None` if it is too long. All are looked at, so that everything that is missing
+    /// is asked for together.
     fn template(&mut self, parts: &[TextPart]) -> Option<Value> {
         let mut text = Some(String::new());
         for part in parts {
@@ -115,7 +121,7 @@ impl Evaluator<'_> {
                     None => self.vague.then(|| "unknown".to_owned()),
                 },
             };
-            text = text.zip(said).map(|(text, said)| text + &said);
+            text = text.zip(said).map(|(text, said)| text + &said).filter(|text| text.len() <= MAX_SIZE);
         }
         text.map(|text| Value::Text(text.into()))
     }
@@ -314,6 +320,16 @@ fn number(value: &Value) -> Option<f64> {
         | Value::Case(_)
         | Value::Pose(_)
         | Value::List(_) => None,
+    }
+}
+
+/// Number of the parts of a value and of the bytes of its texts.
+fn size(value: &Value) -> usize {
+    match value {
+        Value::List(items) => items.iter().fold(1, |sum, item| sum + size(item)),
+        Value::Text(text) => 1 + text.len(),
+        Value::Bool(_) | Value::Int(_) | Value::Number(_) => 1,
+        Value::Entity(_) | Value::Case(_) | Value::Pose(_) => 1,
     }
 }
 
