@@ -378,11 +378,15 @@ impl Prover<'_> {
         let moved = self.moved(def, frame);
         let may_equal = |a, b| self.symbols.may_equal(self.library, self.environment, a, b);
         let end_of = |of: &PerceptionLifetime| {
-            if of.resources & def.uses != 0 || of.entities.iter().any(|entity| moved.contains(entity)) {
+            if of.resources & def.uses != 0 || of.entities.iter().any(|entity| moved.named.contains(entity)) {
                 return Some(Certainty::Always);
             }
-            let mut pairs = of.entities.iter().flat_map(|one| moved.iter().map(|other| (*one, *other)));
-            pairs.any(|(one, other)| may_equal(one, other)).then_some(Certainty::Unknown)
+            let others = moved.named.iter().chain(&moved.perhaps);
+            let mut pairs =
+                of.entities.iter().flat_map(|one| others.clone().map(move |other| (*one, *other)));
+            let may_end =
+                moved.others && !of.entities.is_empty() || pairs.any(|(one, other)| may_equal(one, other));
+            may_end.then_some(Certainty::Unknown)
         };
         let of_several = OnceCell::new();
         let end = |cause: Cause| {
@@ -440,19 +444,35 @@ impl Prover<'_> {
     }
 
     /// Entities that a step moves: the first arguments of an action's effects.
-    fn moved(&self, def: &PrimitiveDef, frame: CallFrame<'_>) -> Entities {
+    fn moved(&self, def: &PrimitiveDef, frame: CallFrame<'_>) -> Moved {
+        let mut moved = Moved::default();
         if def.form == PrimitiveKind::Perception {
-            return Entities::new();
+            return moved;
         }
-        let named = |effect: &&EffectDef| effect.fact.args.first().is_some_and(Option::is_some);
-        let effects = def.makes.iter().chain(&def.unsettles).filter(named);
-        let mut moved: Entities = effects
-            .filter_map(|effect| self.argument(effect.fact.args.first()?.as_ref()?, frame))
-            .map(Entity)
-            .collect();
-        moved.dedup();
+        for effect in def.makes.iter().chain(&def.unsettles) {
+            match (effect.fact.args.first(), effect.each) {
+                (Some(Some(Term::Each)), Some(kind)) => {
+                    let found = self.candidates(effect.when.as_ref(), kind, frame);
+                    moved.perhaps.extend(found.known.into_iter().chain(found.doubtful));
+                    moved.others |= found.rest.is_some();
+                }
+                (Some(Some(term)), _) => moved.named.extend(self.argument(term, frame).map(Entity)),
+                (Some(None) | None, _) => {}
+            }
+        }
+        moved.named.dedup();
         moved
     }
+}
+
+/// Entities that a step moves.
+#[derive(Debug, Default)]
+struct Moved {
+    named: Entities,
+    /// Those that it moves under a condition, which may hold.
+    perhaps: Entities,
+    /// Set where it may hold for others, too.
+    others: bool,
 }
 
 /// Makes the changes of a first attempt those of any attempt: only what all of them change is certain.

@@ -97,3 +97,12 @@ fn quantified_wait_for_nobody_knows_what_changes_what_it_may_be() {
     let steps = "let m = which() monitor when set(m) then fail \"x\" during { needs_slow() }";
     assert_eq!(verdict("needs_slow", start, steps), Verdict::Deferred);
 }
+
+#[test]
+fn quantified_effect_moves_each_that_it_may_be_about() {
+    let touch = "perception touch(o: Object)\n    makes f(o)\n    lasts until o\n    uses camera\n\
+                 action shove()\n    makes g(o) for each o: Object when tuned(o, slow)\n    uses voice\n";
+    assert_eq!(verdict("use", touch, "touch(a) shove() use(a)"), Verdict::Deferred);
+    let nothing = format!("{touch}initially not tuned(any, any)\n");
+    assert_eq!(verdict("use", &nothing, "touch(a) shove() use(a)"), Verdict::Proven);
+}

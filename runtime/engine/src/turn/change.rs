@@ -272,15 +272,32 @@ impl Contracts<'_> {
         let graph = self.graph;
         let primitive = graph.primitives.get(call.primitive.index());
         let uses = self.names(primitive.map_or(&[], |primitive| &primitive.uses));
-        let facts = call.effects.iter().map(|effect| &effect.fact);
-        let facts = facts.chain(call.unsettles.iter().map(|unsettled| &unsettled.fact));
-        let mut judge = self.judge(None);
-        let moves = facts.filter(|_| primitive.is_some_and(|primitive| !primitive.perceives));
-        let moves = moves.filter_map(|fact| match fact.args.first()? {
-            FactArg::Term(term) => entity(judge.term(term)?),
-            FactArg::Any => None,
-        });
-        LifetimeEnd { uses, moves: moves.collect() }
+        let mut moves = Vec::new();
+        if primitive.is_some_and(|primitive| !primitive.perceives) {
+            let effects = call.effects.iter().map(|it| (&it.fact, it.when.as_ref(), it.each));
+            let unsettled = call.unsettles.iter().map(|it| (&it.fact, it.when.as_ref(), it.each));
+            for (fact, when, each) in effects.chain(unsettled) {
+                self.moved(ContractEntry { fact, value: Truth::Unknown, when, each }, &mut moves);
+            }
+        }
+        LifetimeEnd { uses, moves }
+    }
+
+    /// Adds the entities that one entry moves, each that it may be about where it is about several.
+    fn moved(&mut self, entry: ContractEntry<'_>, moves: &mut Vec<SmolStr>) {
+        match entry.fact.args.first() {
+            Some(FactArg::Term(Term::Each)) if entry.each.is_some() => {
+                let mut changes = Vec::new();
+                self.expand(entry, &mut changes);
+                let first = |change: &BeliefChange| match change.args.first()? {
+                    Pattern::Is(Value::Entity(id)) => Some(id.clone()),
+                    _ => None,
+                };
+                moves.extend(changes.iter().filter_map(first));
+            }
+            Some(FactArg::Term(term)) => moves.extend(self.judge(None).term(term).and_then(entity)),
+            Some(FactArg::Any) | None => {}
+        }
     }
 
     fn names(&self, resources: &[ResourceId]) -> Vec<SmolStr> {
