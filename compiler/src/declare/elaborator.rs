@@ -226,14 +226,19 @@ impl<'a> Elaborator<'a> {
         let element =
             wanted.and_then(|wanted| Some(Expected { ty: wanted.ty.element()?, place: wanted.place }));
         let Some(element) = element else { return self.list_of_any(items) };
-        let terms = items.iter().map(|item| self.term_of(item, element)).collect();
+        let mut size = 0;
+        let mut term = |item: &Expr| {
+            let term = self.term_of(item, element);
+            self.bounded(term, item.span, &mut size)
+        };
+        let terms = items.iter().map(&mut term).collect();
         (Term::List(terms), element.ty.list())
     }
 
     /// Elaborates a list whose elements may have any type: it is a list of the nearest type that all of them
     /// have.
     fn list_of_any(&mut self, items: &[Expr]) -> (Term, Ty) {
-        let mut ty = Ty::UNKNOWN;
+        let (mut ty, mut size) = (Ty::UNKNOWN, 0);
         let mut terms = Vec::with_capacity(items.len());
         for (index, item) in items.iter().enumerate() {
             let before = Expected { ty, place: ValueRole::Named("an element of this list") };
@@ -246,7 +251,7 @@ impl<'a> Elaborator<'a> {
                     term = Term::Unknown;
                 }
             }
-            terms.push(term);
+            terms.push(self.bounded(term, item.span, &mut size));
         }
         if ty == Ty::plain(Base::Number) {
             for term in &mut terms {

@@ -145,8 +145,10 @@ fn session_values_that_double_are_refused_at_the_first_that_is_too_large() {
         let lets = (1..40).map(|at| format!("let x{at} = {}", next.replace('#', &(at - 1).to_string())));
         format!("policy p {{ let x0 = {first} {} say(\"done\") }}", lets.collect::<Vec<_>>().join(" "))
     };
-    let said = errors(&doubled("\"aa\"", "\"{x#}{x#}\""));
-    assert_eq!(said.first().map(|(code, _)| code.as_str()), Some("M0314"), "{said:?}");
+    for (first, next) in [("\"aa\"", "\"{x#}{x#}\""), ("[\"a\"]", "[x#, x#]")] {
+        let said = errors(&doubled(first, next));
+        assert_eq!(said.first().map(|(code, _)| code.as_str()), Some("M0314"), "{said:?}");
+    }
     let chain = (1..40).map(|at| format!("policy p{at}(t: Number) {{ p{}(t + t) }}", at - 1));
     let chain = format!("policy p0(t: Number) {{ say(\"{{t}}\") }} {}", chain.collect::<Vec<_>>().join(" "));
     assert!(codes(&chain).contains(&"M0314".to_owned()), "{:?}", errors(&chain));

@@ -765,7 +765,8 @@ fn soundness_a_closed_world_fires_its_monitors_at_once() {
 #[test]
 fn soundness_what_was_seen_ends_with_its_lifetime_in_a_run() {
     let declared = "perception peek(o: Object)\n    makes f(o)\n    lasts until base, o\n    uses camera\n\
-                    action lift(o: Object)\n    makes g(o)\n    uses voice\n";
+                    action lift(o: Object)\n    makes g(o)\n    uses voice\n\
+                    action shove()\n    makes g(o) for each o: Object when f(o)\n    uses voice\n";
     let graph = |steps: &str| compiled(&format!("{declared}policy p {{ {steps} }}"));
     let uses = |graph: Graph| {
         let found = requests_of(graph, &mut |effect| honest(effect, |_| Some(false)));
@@ -777,6 +778,7 @@ fn soundness_what_was_seen_ends_with_its_lifetime_in_a_run() {
         ("peek(a) pass() use(a)", 1),
         ("peek(a) wave() use(a)", 0),
         ("peek(a) lift(a) use(a)", 0),
+        ("peek(a) shove() use(a)", 0),
         ("peek(a) make(a) wave() use(a)", 1),
         ("parallel { { peek(a) } { wave() } } use(a)", 0),
         ("parallel { { peek(a) } { pass() wave() } } use(a)", 0),
