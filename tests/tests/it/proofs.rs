@@ -107,7 +107,7 @@ fn proofs_of_one_of_several_facts_look_at_each_path() {
     let paths = [
         "if g(a) { make(a) } else { make(b) }",
         "if g(a) { make(a) } else if g(b) { make(b) } else { make(c) }",
-        "if g(a) { make(a) pass() } else if g(b) { make(b) } else if g(c) { make(c) } else { make(a) } wave()",
+        "if g(a) { make(a) } else if g(b) { make(b) } else if g(c) { make(c) } else { make(a) } wave()",
     ];
     let goals = ["f(any)", "f(a) or f(b) or f(c)", "not (not f(a) and not f(b) and not f(c))"];
     for (path, goal) in paths.iter().flat_map(|path| goals.map(|goal| (path, goal))) {

@@ -73,7 +73,8 @@ fn quantified_over_things_without_a_declaration() {
     let alone = |when: &str| {
         format!(
             "{DECLARED}{nobody}action alone(p2: Part)\n    needs not held_part(p) for each p: Part{when}\n\
-             initially not held_part(any)\npolicy p {{ let m = look_p(\"x\") let n = look_p(\"y\") grab(m) alone(n) }}"
+             initially not held_part(any)\n\
+             policy p {{ let m = look_p(\"x\") let n = look_p(\"y\") grab(m) alone(n) }}"
         )
     };
     for when in [" when p != p2", " when ready()", " when ready() or set(fast)"] {

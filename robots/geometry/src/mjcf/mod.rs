@@ -157,7 +157,7 @@ fn header(xml: &mut XmlText, card: &Robot, scene: &Scene) {
             ("integrator", "implicitfast".into()),
             ("cone", "elliptic".into()),
             ("impratio", "10".into()),
-            // Soft contacts creep under the force of a hand. With 4 iterations a jaw squeezes out a jar that it turns.
+            // Soft contacts creep under the force of a hand.
             ("noslip_iterations", "8".into()),
         ],
     );

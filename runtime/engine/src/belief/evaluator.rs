@@ -26,8 +26,8 @@ pub(crate) enum Freshness {
 /// last.
 const DERIVED: &str = motet_stdlib::lang::fluents::REACHABLE;
 
-/// Maximal size of a value that is worked out: the bytes of its text, or its parts and the bytes of their texts.
-/// Names stand for values, so a few steps could ask for any number.
+/// Maximal size of a value that is worked out: the bytes of its text, or its parts and the bytes of their
+/// texts. Names stand for values, so a few steps could ask for any number.
 const MAX_SIZE: usize = 1 << 16;
 
 /// Judges conditions. Cheap to make.
@@ -109,8 +109,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// A text with its values; `None` if it is too long. All are looked at, so that everything that is missing
-    /// is asked for together.
+    /// A text with its values; `None` if it is too long. All are looked at, so that everything that is
+    /// missing is asked for together.
     fn template(&mut self, parts: &[TextPart]) -> Option<Value> {
         let mut text = Some(String::new());
         for part in parts {

@@ -1,8 +1,9 @@
 //! `look`: an entity in a camera's view with a free line of sight, with base and arm still.
 //!
 //! An entity is in view within the range of the card, where neither an obstacle nor the held object hides
-//! one of its points. A camera that joints turn has to aim at it to within [`AIM`], and its bearing from the base may be at most half
-//! of the card's view, which includes the joints' motion. The view of a fixed camera is its own.
+//! one of its points. A camera that joints turn has to aim at it to within [`AIM`], and its bearing from the
+//! base may be at most half of the card's view, which includes the joints' motion. The view of a fixed camera
+//! is its own.
 
 use motet_robots::card::CameraMount;
 use motet_robots::scene::Entity;
