@@ -10,6 +10,7 @@ pub(crate) mod words;
 
 use std::rc::Rc;
 
+use motet::driver_camera::DriverCamera;
 use motet::run::run_id;
 use motet_planner::dialogue::{Conversation, Outcome};
 use motet_project::SavedProject;
@@ -23,7 +24,8 @@ use record::ConversationRecord;
 
 use crate::error::{CliError, Exit};
 use crate::flags::OutputFormat;
-use crate::interrupt::{catch_interrupts, is_interrupted};
+use crate::interrupt::{guard_runs, is_interrupted};
+use crate::output::queue::WhenFull;
 use crate::output::{Colors, escape, note};
 use crate::questions::{QuestionDriver, jumps};
 use crate::ready_driver::{ReadyDriver, RunSubject, open_driver};
@@ -62,7 +64,8 @@ pub(crate) fn converse(
         return Err(CliError::Message("--camera needs a driver that takes pictures".to_owned()));
     }
     let mut planner = planner::planner(args, ready.speed, setup.options, colors, record.clone())?;
-    catch_interrupts()?;
+    let is_simulated = matches!(ready.eyes, DriverCamera::Simulator(_));
+    guard_runs(if is_simulated { WhenFull::Wait } else { WhenFull::GoOn })?;
     let ReadyDriver { mut driver, eyes, saved, clock, speed, settings } = ready;
     let mut talk = Conversation::new(&setup).with_runs(&run, settings, args.on_instruction.into());
     talk.tell(opened.told_facts());

@@ -9,7 +9,8 @@ use motet_runtime::journal::OpenGoals;
 use motet_runtime::{DriverEvent, Effect, Event, GoalId};
 
 use crate::error::CliError;
-use crate::output::{escape, note};
+use crate::output::queue::WhenFull;
+use crate::output::{self, escape, note};
 use crate::typed_line;
 
 /// Interval at which a waiting run checks for an interrupt.
@@ -28,6 +29,13 @@ pub(crate) fn catch_interrupts() -> Result<(), CliError> {
     static CAUGHT: OnceLock<Result<(), String>> = OnceLock::new();
     let caught = CAUGHT.get_or_init(|| catch().map_err(|error| error.to_string()));
     caught.clone().map_err(|error| CliError::Message(format!("cannot handle Ctrl-C: {error}")))
+}
+
+/// Catches the signals, and lets no reader of the output stop the runs that begin now.
+pub(crate) fn guard_runs(when: WhenFull) -> Result<(), CliError> {
+    catch_interrupts()?;
+    let cannot = |error| CliError::Message(format!("cannot write the output: {error}"));
+    output::queue::begin(when, is_interrupted).map_err(cannot)
 }
 
 #[cfg(unix)]
@@ -63,6 +71,7 @@ fn request_stop() {
     }
     if !note_moving() {
         typed_line::restore();
+        output::queue::drain();
         std::process::exit(130);
     }
     note("the run ends once the driver has confirmed the stop, or has not answered in time");

@@ -146,7 +146,9 @@ pub fn run(words: impl IntoIterator<Item = OsString>, program: Option<PathBuf>) 
     program.into_iter().for_each(|program| {
         let _ = PROGRAM.set(program);
     });
-    main(words).status()
+    let exit = main(words);
+    output::queue::end();
+    exit.status()
 }
 
 fn main(words: impl IntoIterator<Item = OsString>) -> Exit {

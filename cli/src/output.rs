@@ -1,4 +1,7 @@
-//! Stdout and stderr. A closed pipe is no error: the rest of the output is dropped.
+//! Stdout and stderr. A closed pipe is no error: the rest of the output is dropped. From the first run on,
+//! both go through a queue.
+
+pub(crate) mod queue;
 
 use std::fs::{self, File};
 use std::io::{self, IsTerminal, Write};
@@ -9,6 +12,7 @@ use motet_project::ProjectError;
 use motet_syntax::render::{escaped, escaped_json, is_steering};
 
 use crate::error::CliError;
+use queue::{Kind, queues};
 
 pub(crate) use motet::printable::escape;
 
@@ -47,6 +51,7 @@ impl Colors {
 pub(crate) struct Output {
     is_used: bool,
     is_closed: bool,
+    is_queued: bool,
     error: Option<io::Error>,
 }
 
@@ -58,7 +63,7 @@ impl Output {
 
     /// Writes documents of JSON and flushes them. What would steer a terminal is escaped as JSON has it.
     pub(crate) fn json(&mut self, text: &str) {
-        self.styled(&escaped_json(text));
+        self.write(&escaped_json(text), Kind::Document);
     }
 
     /// Writes a document in its notation and flushes it.
@@ -68,10 +73,21 @@ impl Output {
 
     /// Writes a text with its own colours, in which the texts of others are escaped, and flushes it.
     pub(crate) fn styled(&mut self, text: &str) {
+        self.write(text, Kind::Line);
+    }
+
+    fn write(&mut self, text: &str, kind: Kind) {
         if self.is_closed || text.is_empty() {
             return;
         }
         self.is_used = true;
+        if let Some(queues) = queues() {
+            self.is_queued = true;
+            if queues.stdout.push(text.to_owned(), kind) {
+                note("nobody takes the lines of the output any more: it counts as closed");
+            }
+            return;
+        }
         let mut stdout = io::stdout().lock();
         if let Err(error) = stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
             self.is_closed = true;
@@ -109,12 +125,19 @@ impl Output {
 
     /// Is `true` once the reader is gone.
     pub(crate) fn is_closed(&self) -> bool {
-        self.is_closed
+        self.is_closed || queues().is_some_and(|queues| queues.stdout.is_closed())
+    }
+
+    /// Is `true` while a reader has not taken what was written.
+    pub(crate) fn is_behind(&self) -> bool {
+        queues().is_some_and(|queues| queues.stdout.is_behind())
     }
 
     /// Error of a write, other than a closed pipe.
     pub(crate) fn take_error(&mut self) -> Option<io::Error> {
-        self.error.take()
+        queue::drain();
+        let queues = queues().filter(|_| self.is_queued);
+        self.error.take().or_else(|| queues.and_then(|queues| queues.stdout.take_error()))
     }
 }
 
@@ -180,9 +203,17 @@ pub(crate) fn note(text: &str) {
     styled_note(&escaped(text));
 }
 
-/// Writes a line with its own colours to stderr. Errors are ignored: nobody is left to read of them.
+/// Writes a line with its own colours to stderr.
 pub(crate) fn styled_note(text: &str) {
-    let _ = writeln!(io::stderr().lock(), "{text}");
+    prompt(&format!("{text}\n"));
+}
+
+/// Writes a text to stderr as it is. Errors are ignored: nobody is left to read of them.
+pub(crate) fn prompt(text: &str) {
+    match queues() {
+        Some(queues) => _ = queues.stderr.push(text.to_owned(), Kind::Note),
+        None => _ = io::stderr().lock().write_all(text.as_bytes()),
+    }
 }
 
 /// Text of a model without what would steer a terminal.

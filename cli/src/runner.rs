@@ -19,8 +19,9 @@ use motet_runtime::{
 
 use crate::error::{CliError, Exit, journal_error};
 use crate::flags::Speed;
-use crate::interrupt::{SLICE, catch_interrupts, is_interrupted, note_effect, note_event};
+use crate::interrupt::{SLICE, guard_runs, is_interrupted, note_effect, note_event};
 use crate::output::note;
+use crate::output::queue::WhenFull;
 use crate::run_view::{SpokenControl, View};
 use crate::swap_checker::SwapChecker;
 use crate::view::live::SharedPage;
@@ -222,7 +223,7 @@ impl Runner<'_> {
         mut paced: PacedView,
         page: Option<(SharedPage, Beginning)>,
     ) -> Result<Exit, CliError> {
-        catch_interrupts()?;
+        guard_runs(if self.is_simulated { WhenFull::Wait } else { WhenFull::GoOn })?;
         let shared = page.as_ref().map(|(page, _)| Rc::clone(page));
         let mut shown;
         let onlooker: &mut dyn Observer = match page {

@@ -2,10 +2,12 @@
 //! that a view that redraws the screen can show them below itself. A thread reads; the terminal is as it was
 //! before once the reading has ended.
 
-use std::io::{self, IsTerminal, Read, Write as _};
+use std::io::{self, IsTerminal, Read};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::Sender;
 use std::sync::{Mutex, PoisonError};
+
+use crate::output::prompt;
 
 /// The line so far.
 static LINE: Mutex<String> = Mutex::new(String::new());
@@ -29,8 +31,7 @@ pub(crate) fn set_drawn(is_drawn: bool) {
 /// Shows the line at the place of the cursor.
 pub(crate) fn show() {
     if let Some(line) = current() {
-        // An error of stderr cannot be reported.
-        let _ = write!(io::stderr().lock(), "\r\u{1b}[K> {line}");
+        prompt(&format!("\r\u{1b}[K> {line}"));
     }
 }
 
@@ -79,7 +80,7 @@ fn take(letter: char, lines: &Sender<String>) -> bool {
         '\n' | '\r' => {
             let line = std::mem::take(&mut *line);
             if !IS_DRAWN.load(Ordering::SeqCst) {
-                let _ = writeln!(io::stderr().lock());
+                prompt("\n");
             }
             return lines.send(line).is_ok();
         }

@@ -3,7 +3,7 @@
 
 use std::cell::{Cell, RefCell};
 use std::collections::VecDeque;
-use std::io::{self, BufRead, IsTerminal, Read as _, Write as _};
+use std::io::{self, BufRead, IsTerminal, Read as _};
 use std::path::Path;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -22,7 +22,7 @@ use smol_str::SmolStr;
 
 use crate::error::CliError;
 use crate::interrupt::is_interrupted;
-use crate::output::{escape, note, printable};
+use crate::output::{self, escape, note, printable};
 use crate::questions::{Answerer, Question};
 use crate::typed_line::{self, LetterReader};
 use crate::view::hub::Hub;
@@ -187,8 +187,7 @@ impl OperatorInput {
         match self {
             Self::Terminal { letters: Some(_), .. } => typed_line::show(),
             Self::Terminal { .. } if self.is_echoed() => {
-                // An error of stderr cannot be reported.
-                let _ = write!(io::stderr().lock(), "> ");
+                output::prompt("> ");
             }
             Self::Terminal { .. } | Self::Script(_) | Self::Never => {}
         }

@@ -1,6 +1,6 @@
 //! Planner of a conversation: the built-in one, or a model on a server with a log of its replies.
 
-use std::io::{self, IsTerminal, Write as _};
+use std::io::{self, IsTerminal};
 
 use motet_client::{Client, ClientSettings, EncodedImage};
 use motet_compiler::CheckOptions;
@@ -16,7 +16,7 @@ use super::record::ConversationRecord;
 use crate::error::CliError;
 use crate::flags::{CarrierArg, OutputFormat, Speed};
 use crate::interrupt::is_interrupted;
-use crate::output::{Colors, note, printable, styled_note};
+use crate::output::{Colors, note, printable, prompt, styled_note};
 
 /// Planner of the flags.
 pub(super) fn planner(
@@ -178,8 +178,7 @@ impl ModelObserver for ModelLog {
             }
             ModelEvent::Wrote(piece) => {
                 if self.is_shown && self.is_live {
-                    // An error of stderr cannot be reported.
-                    let _ = write!(io::stderr().lock(), "{}", self.paint("2", &printable(piece)));
+                    prompt(&self.paint("2", &printable(piece)));
                     self.in_line = true;
                 }
             }

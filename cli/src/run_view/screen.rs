@@ -159,7 +159,8 @@ impl View for Screen {
     }
 
     fn reached(&mut self, now: Time) {
-        if self.last.is_none_or(|last| last.elapsed() >= FRAME) {
+        // Frames of a terminal that is paused would only be old.
+        if self.last.is_none_or(|last| last.elapsed() >= FRAME) && !self.out.is_behind() {
             self.draw(now);
         }
     }

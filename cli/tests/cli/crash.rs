@@ -153,6 +153,55 @@ fn signals_to_end_name_what_still_runs_in_a_conversation() {
     assert!(said.contains("may still move the robot: go(to: counter)\nthe run ends"), "{said}");
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn robot_stops_while_nobody_reads_the_output() {
+    use std::io::Write as _;
+    if !has_python() {
+        return;
+    }
+    let place = place(
+        "crash_unread",
+        "    goal = {'goal': m['params'].get('goal')}\n    \
+         if m['method'] in ('observe', 'watch'):\n        \
+         say({'id': m['id'], 'result': {'answer': 'unknown'}})\n    \
+         elif 'id' in m: say({'id': m['id'], 'result': {}})\n    \
+         if m['method'] == 'start': open('moves', 'w').close()\n    \
+         if m['method'] == 'cancel':\n        open('stands', 'w').close()\n        \
+         say({'method': 'ended', 'params': dict(goal, outcome='interrupted')})\n",
+    );
+    for line in ["run away.motet", "run away.motet --format json", "do", "talk"] {
+        // A pipe that holds no byte more.
+        let (reader, mut full) = std::io::pipe().unwrap();
+        full.write_all(&[b'x'; 1 << 16]).unwrap();
+        let request = (line == "do").then_some("go to the kitchen table");
+        let mut host = Command::new(env!("CARGO_BIN_EXE_motet"))
+            .args(line.split(' ').chain(request))
+            .args(["--robot", "hsr", "--scene", "kitchen", "--driver", "python3 driver.py"])
+            .current_dir(place.path(""))
+            .stdin(Stdio::piped())
+            .stdout(full.try_clone().unwrap())
+            .stderr(full)
+            .spawn()
+            .unwrap();
+        let mut typed = host.stdin.take().unwrap();
+        typed.write_all(b"go to the kitchen table\n").unwrap();
+        let moves = eventually(|| place.path("moves").exists());
+        Command::new("kill").args(["-TERM", &host.id().to_string()]).status().unwrap();
+        let stands = moves && eventually(|| place.path("stands").exists());
+        let mut ended = None;
+        eventually(|| {
+            ended = host.try_wait().unwrap();
+            ended.is_some()
+        });
+        host.kill().unwrap();
+        assert!(stands, "{line}: moves: {moves}");
+        assert_eq!(ended.and_then(|status| status.code()), Some(130), "{line}");
+        ["moves", "stands"].iter().for_each(|name| std::fs::remove_file(place.path(name)).unwrap());
+        drop((reader, typed));
+    }
+}
+
 #[cfg(unix)]
 #[test]
 fn driver_behind_a_shell_ends_with_its_host() {

@@ -15,7 +15,8 @@ use super::{CompiledPolicy, RunArgs, compile};
 use crate::documents::{Document, one_document};
 use crate::error::{CliError, Exit};
 use crate::flags::{OutputFormat, folder_of};
-use crate::interrupt::{catch_interrupts, is_interrupted};
+use crate::interrupt::{guard_runs, is_interrupted};
+use crate::output::queue::WhenFull;
 use crate::output::{count, escape, note};
 use crate::ready_driver::{WithErrors, address};
 use crate::report::Report;
@@ -40,7 +41,7 @@ pub(super) fn check(file: Option<&Path>, args: &RunArgs, report: &mut Report) ->
         let why = "`--check` leads a driver in another process: name it with `--driver`";
         return Err(CliError::Message(why.to_owned()));
     };
-    catch_interrupts()?;
+    guard_runs(WhenFull::GoOn)?;
     let mut connect = |log: Box<dyn DriverLog>| {
         let mut hello = Hello { state: state_facts(&opened), ..Hello::of(&graph, &run_id()) };
         if file.is_none() && !has_robot {
@@ -54,10 +55,14 @@ pub(super) fn check(file: Option<&Path>, args: &RunArgs, report: &mut Report) ->
     let log = Box::new(|text: &str| note(&escape(text)));
     let result = conformance::check(command, args.patience, log, &mut connect, &mut |scene| {
         print_scene(&scene, args.format, report);
-        if is_interrupted() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        if is_interrupted() || report.out.is_closed() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
     });
     let DriverResult { driver, broken } = result.map_err(CliError::Message)?;
-    if is_interrupted() {
+    if is_interrupted() || report.out.is_closed() {
         return Ok(Exit::Interrupted);
     }
     if args.format == OutputFormat::Human {
