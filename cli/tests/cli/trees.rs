@@ -29,6 +29,7 @@ fn export_btcpp_refuses_constructs_without_a_node() {
              say(\"hi\") }\n}\n",
         )
         .file("wrong.motet", "policy p for hsr { pick(mug_1) }\n")
+        .file("crowded.xml", format!("<root {}/>", (0..300).map(|n| format!("a{n}='' ")).collect::<String>()))
         .file("torn.xml", "<root BTCPP_format=\"4\"><BehaviorTree ID=\"a\"><Sequence>")
         .file(
             "unknown.xml",
@@ -40,6 +41,7 @@ fn export_btcpp_refuses_constructs_without_a_node() {
     assert!(!place.path("pauses.xml").exists());
     place.run(&format!("export btcpp wrong.motet {room}")).check(1, &["out:M0501"]);
     place.run(&format!("import btcpp torn.xml {room}")).check(1, &["out:M0141", "out:torn.xml:1:"]);
+    place.run(&format!("import btcpp crowded.xml {room}")).check(1, &["out:M0141", "out:more than 256"]);
     place.run(&format!("import btcpp unknown.xml {room}")).check(1, &["out:M0143", "out:frobnicate"]);
     place.run(&format!("import btcpp absent.xml {room}")).check(2, &["err:cannot read `absent.xml`"]);
 }

@@ -17,6 +17,7 @@ pub mod suggest;
 pub mod text;
 pub mod unit;
 pub mod words;
+pub mod xml;
 
 pub use diagnostic::{About, Code, Diagnostic, Edit, Fix, Mistake, Related, Severity};
 pub use format::format;

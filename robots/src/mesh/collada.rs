@@ -3,6 +3,7 @@
 //! The unit of the file scales its coordinates to m. The axis that it calls up is not applied, as in RViz and
 //! MoveIt: URDFs of ROS expect that. Materials, lights, cameras, skins and animations are skipped.
 
+use motet_syntax::xml::{CrowdedElement, crowded};
 use roxmltree::{Document, Node, ParsingOptions};
 use std::collections::HashMap;
 
@@ -24,6 +25,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<Triangle>, String> {
     let text = std::str::from_utf8(bytes).map_err(|_| "it is not UTF-8".to_owned())?;
     let options = ParsingOptions { allow_dtd: false, nodes_limit: MAX_NODES, entity_resolver: None };
     let text = text.trim_start_matches('\u{feff}').trim_start();
+    if let Some(CrowdedElement { what, limit, .. }) = crowded(text) {
+        return Err(format!("it has more than {limit} {what}"));
+    }
     let xml =
         Document::parse_with_options(text, options).map_err(|error| format!("it is no XML: {error}"))?;
     let root = xml.root_element();
@@ -295,6 +299,9 @@ mod tests {
         assert_eq!(wrong("1000 1000", "far 1000"), "`far` is no number");
         assert_eq!(wrong("url=\"#g\"", "url=\"#h\""), "it places a geometry that it lacks");
         assert!(read(b"solid x").unwrap_err().starts_with("it is no XML"));
+        let crowded: String = (0..300).map(|n| format!(" a{n}=''")).collect();
+        let crowded = read(format!("<COLLADA{crowded}/>").as_bytes());
+        assert_eq!(crowded.unwrap_err(), "it has more than 256 attributes of an element");
         assert_eq!(read(b"<robot/>").unwrap_err(), "it is no COLLADA document");
         let circle =
             TRIANGLE.replace("<node><translate>", "<node id=\"n\"><instance_node url=\"#n\"/><translate>");

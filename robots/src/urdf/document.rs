@@ -5,6 +5,7 @@
 //! word of a vector must be a number: a reader that skips what it cannot parse accepts `"abc 1 2 3"` as a
 //! vector.
 
+use motet_syntax::xml::{CrowdedElement, crowded};
 use motet_syntax::{Diagnostic, FileId, Source, Span};
 use roxmltree::{Error, Node, ParsingOptions};
 
@@ -52,6 +53,9 @@ impl<'t> XmlDocument<'t> {
     ) -> Result<Self, Box<Diagnostic>> {
         let text = source.text.trim_start();
         let spans = XmlSpans { file, skipped: source.text.len() - text.len() };
+        if let Some(CrowdedElement { at, what, limit }) = crowded(text) {
+            return Err(Box::new(TooMuch { span: spans.span(at..at + 1), what, limit }.into()));
+        }
         let options =
             ParsingOptions { allow_dtd: false, nodes_limit: max_nodes(dialect), entity_resolver: None };
         let xml = match roxmltree::Document::parse_with_options(text, options) {

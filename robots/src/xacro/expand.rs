@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 use std::rc::Rc;
 
+use motet_syntax::xml::{CrowdedElement, crowded};
 use roxmltree::{Document, Node, ParsingOptions};
 
 use super::XacroFiles;
@@ -72,6 +73,10 @@ fn parse<'t>(name: &str, text: &'t str) -> Result<Document<'t>, String> {
         return Err(format!("{name}: it is larger than {} MiB", MAX_BYTES >> 20));
     }
     let options = ParsingOptions { allow_dtd: false, nodes_limit: MAX_NODES, entity_resolver: None };
+    if let Some(CrowdedElement { at, what, limit }) = crowded(text) {
+        let line = text.get(..at).unwrap_or_default().lines().count().max(1);
+        return Err(format!("{name}: line {line} has more than {limit} {what}"));
+    }
     Document::parse_with_options(text.trim_start_matches('\u{feff}').trim_start(), options)
         .map_err(|error| format!("{name}: {error}"))
 }

@@ -280,6 +280,8 @@ fn urdf_reader_refuses_documents_beyond_limits() {
     assert_eq!(read(&deep(64)).1[0].code.0, "M0452");
     let wide = format!("<robot>{}</robot>", "<a/>".repeat(300_000));
     assert_eq!(read(&wide).1[0].code.0, "M0452");
+    let crowded: String = (0..300).map(|n| format!(" a{n}=''")).collect();
+    assert_eq!(read(&format!("<robot><link{crowded}/></robot>")).1[0].code.0, "M0452");
     // A chain of as many links as fit is no deeper than any other robot.
     let links: String = (0..9_000).map(|n| format!("<link name='l{n}'/>")).collect();
     let joints: String = (1..9_000)

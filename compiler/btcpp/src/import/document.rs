@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use motet_syntax::xml::{CrowdedElement, crowded};
 use motet_syntax::{FileId, Source, Span};
 use roxmltree::{Document, Error, Node, ParsingOptions};
 
@@ -24,6 +25,11 @@ pub(super) struct Places {
 pub(super) fn parse(source: &Source, file: FileId) -> Result<(Document<'_>, Places), NotTree> {
     let text = source.text.trim_start();
     let places = Places { file, skipped: source.text.len() - text.len() };
+    if let Some(CrowdedElement { at, what, limit }) = crowded(text) {
+        let at = at + places.skipped;
+        let problem = format!("there are more than {limit} {what}");
+        return Err(NotTree { span: Span::new(file, at, at + 1), problem });
+    }
     let options = ParsingOptions { allow_dtd: false, nodes_limit: MAX_XML_NODES, entity_resolver: None };
     match Document::parse_with_options(text, options) {
         Ok(document) => match too_deep(&document).map(|node| places.tag(node)) {
