@@ -129,6 +129,30 @@ fn journal_that_is_as_large_as_a_file_may_be_ends_the_run_safely() {
     place.run("replay run").check(0, &["out:identical"]);
 }
 
+#[cfg(unix)]
+#[test]
+fn journal_with_a_named_pipe_is_refused() {
+    let place = Place::new("journal_pipes").file("good.motet", GOOD);
+    place.run("run good.motet --scene kitchen --speed max --record run").check(0, &[]);
+    place
+        .shell(
+            "mkdir pipe link && mkfifo pipe/000000000000.journal run/motion.jsonl && \
+             ln -s ../pipe/000000000000.journal link",
+        )
+        .check(0, &[]);
+    for line in ["replay", "run --resume", "export mcap -o run.mcap"] {
+        for folder in ["pipe", "link"] {
+            place
+                .run(&format!("{line} {folder}"))
+                .check(2, &[&format!("err:`{folder}/000000000000.journal` is no regular file")]);
+        }
+    }
+    place.run("view -o page.html pipe").check(2, &["err:`pipe` holds no journal"]);
+    place.run("export mcap -o run.mcap run").check(0, &[]);
+    place.shell("rm run/lock && mkfifo run/lock").check(0, &[]);
+    place.run("run --resume run").check(2, &["err:`run/lock` is no regular file"]);
+}
+
 #[test]
 fn changed_journal_is_refused() {
     let place = Place::new("journal_changed").file("good.motet", GOOD);

@@ -7,6 +7,7 @@ use std::path::Path;
 
 use motet_runtime::{Moved, Time};
 
+use super::read::require_file;
 use crate::remote::protocol::MovedParams;
 
 /// Name of the file in the folder of a journal, with one message `moved` of the driver protocol on each line.
@@ -28,6 +29,7 @@ pub(super) struct MotionFile {
 impl MotionFile {
     /// Continues the file in a folder; `None` if it cannot be written.
     pub(super) fn open(folder: &Path) -> Option<Self> {
+        require_file(&folder.join(FILE)).ok()?;
         let file = File::options().create(true).append(true).open(folder.join(FILE)).ok()?;
         let bytes = file.metadata().ok()?.len();
         Some(Self { file, bytes, last: None, unwritten: Moved::default() })
@@ -69,7 +71,8 @@ impl MotionReader {
         }
         self.next.take().iter().for_each(&mut *take);
         if self.file.is_none() {
-            let file = File::open(folder.join(FILE)).ok();
+            let path = folder.join(FILE);
+            let file = require_file(&path).ok().and_then(|()| File::open(&path).ok());
             self.file = file.map(|file| BufReader::new(file.take(2 * MAX_BYTES)));
         }
         let Some(file) = &mut self.file else { return };

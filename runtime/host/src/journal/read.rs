@@ -39,6 +39,7 @@ pub fn read(folder: &Path, take: &mut dyn FnMut(u64, JournalEntry)) -> Result<Jo
             let what = format!("the segment that begins with line {entries} is missing");
             return Err(JournalError::Segments { path: folder.to_owned(), what });
         }
+        require_file(path)?;
         let (bytes, size) = read_segment(path).map_err(JournalError::io("cannot read", path))?;
         if size > MAX_SEGMENT_BYTES && place == SegmentPosition::Middle {
             let what = format!("`{}` is larger than {} MiB", path.display(), MAX_SEGMENT_BYTES >> 20);
@@ -75,6 +76,7 @@ pub fn size(folder: &Path) -> u64 {
 #[must_use]
 pub fn lines(folder: &Path) -> usize {
     let breaks = |path: &Path| {
+        require_file(path).ok()?;
         let bytes = BufReader::new(File::open(path).ok()?).split(b'\n');
         Some(bytes.take_while(Result::is_ok).count())
     };
@@ -93,6 +95,14 @@ fn read_segment(path: &Path) -> io::Result<(Vec<u8>, u64)> {
     file.take(MAX_SEGMENT_BYTES).read_to_end(&mut bytes)?;
     let size = size.max(bytes.len() as u64);
     Ok((bytes, size))
+}
+
+/// Refuses what is no regular file: to open a named pipe or a device may take for ever.
+pub(super) fn require_file(path: &Path) -> Result<(), JournalError> {
+    match fs::metadata(path) {
+        Ok(data) if !data.is_file() => Err(JournalError::Irregular { path: path.to_owned() }),
+        Ok(_) | Err(_) => Ok(()),
+    }
 }
 
 /// The segments of a folder with the number of their first line, in order.
@@ -124,6 +134,9 @@ pub enum JournalError {
         path: PathBuf,
         source: io::Error,
     },
+    /// A file of it is a named pipe, a device or a folder.
+    #[error("`{}` is no regular file", path.display())]
+    Irregular { path: PathBuf },
     /// It is damaged.
     #[error("`{}`: {damage}", path.display())]
     Damaged { path: PathBuf, damage: JournalDamage },

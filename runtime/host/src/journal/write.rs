@@ -1,5 +1,6 @@
 //! Writing a journal to disk.
 
+use super::read::require_file;
 use super::{JournalError, JournalTail, LOCK, read, segment_name};
 use motet_runtime::journal::{JournalEntry, JournalHead, LineChain, SEGMENT_BYTES};
 use std::fs::{self, File, OpenOptions};
@@ -216,6 +217,7 @@ fn has_no_entry(path: &Path) -> bool {
 
 fn lock(folder: &Path) -> Result<Lock, JournalError> {
     let path = folder.join(LOCK);
+    require_file(&path)?;
     let file = OpenOptions::new().create(true).truncate(false).write(true).open(&path);
     let file = file.map_err(JournalError::io("cannot write", &path))?;
     match file.try_lock() {
