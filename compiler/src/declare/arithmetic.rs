@@ -14,11 +14,11 @@ use crate::ir::{Base, BindingId, Term, Ty};
 
 impl Elaborator<'_> {
     pub(super) fn arith(&mut self, op: ArithOp, left: &Expr, right: &Expr, span: Span) -> (Term, Ty) {
-        let (mut size, spans) = (0, [left.span, right.span]);
-        let (left, left_ty) = self.term(left, None);
-        let (right, right_ty) = self.term(right, None);
-        let left = self.bounded(left, spans[0], &mut size);
-        let right = self.bounded(right, spans[1], &mut size);
+        let mut size = 0;
+        let [(left, left_ty), (right, right_ty)] = [left, right].map(|part| {
+            let (term, ty) = self.term(part, None);
+            (self.bounded(term, part.span, &mut size), ty)
+        });
         let (Some(a), Some(b)) = (dimension(left_ty), dimension(right_ty)) else {
             if left_ty.base != Base::Unknown && right_ty.base != Base::Unknown {
                 self.mismatch(op.symbol(), left_ty, right_ty, span);

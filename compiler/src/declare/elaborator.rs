@@ -227,12 +227,11 @@ impl<'a> Elaborator<'a> {
             wanted.and_then(|wanted| Some(Expected { ty: wanted.ty.element()?, place: wanted.place }));
         let Some(element) = element else { return self.list_of_any(items) };
         let mut size = 0;
-        let mut term = |item: &Expr| {
+        let terms = items.iter().map(|item| {
             let term = self.term_of(item, element);
             self.bounded(term, item.span, &mut size)
-        };
-        let terms = items.iter().map(&mut term).collect();
-        (Term::List(terms), element.ty.list())
+        });
+        (Term::List(terms.collect()), element.ty.list())
     }
 
     /// Elaborates a list whose elements may have any type: it is a list of the nearest type that all of them

@@ -319,12 +319,13 @@ impl Prover<'_> {
             return joined;
         }
         for index in (0..self.state.partitions.len()).rev() {
-            let Some(partition) = self.state.partitions.get(index).cloned() else { break };
+            let Some(partition) = self.state.partitions.get(index) else { break };
             if self.state.facts.mark() > partition.since + MAX_AGE
                 || !partition.differs(|fluent| mentions(condition, fluent))
             {
                 continue;
             }
+            let partition = partition.clone();
             let mut found: Option<TruthSet> = None;
             self.on_each_path(&partition, |this| {
                 let value = this.evaluate(condition, frame);

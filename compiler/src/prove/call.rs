@@ -360,9 +360,8 @@ impl<'a> Prover<'a> {
         };
         let Candidates { known, doubtful, rest } = self.asked(need, kind, frame);
         let (mut all, mut culprit, mut unknown) = (TruthSet::yes(Cause::NOTHING), None, None);
-        let candidates = known.iter().map(|it| (it, false)).chain(doubtful.iter().map(|it| (it, true)));
-        for (candidate, is_doubtful) in candidates {
-            let candidate = *candidate;
+        let known = known.into_iter().map(|entity| (entity, false));
+        for (candidate, is_doubtful) in known.chain(doubtful.into_iter().map(|entity| (entity, true))) {
             let frame = CallFrame { each: Some(candidate), ..frame };
             let when =
                 need.when.as_ref().map_or(TruthSet::yes(Cause::NOTHING), |when| self.evaluate(when, frame));

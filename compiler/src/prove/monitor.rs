@@ -475,8 +475,9 @@ impl<'a> Prover<'a> {
 
     /// Collects the facts whose truth does not follow from that of the condition; `known` is the truth of the
     /// condition, and whether it says anything.
-    /// That none has a fact says so of each; of some that have it, others may take the place. Nothing is
-    /// known of a fact about nobody knows whom.
+    ///
+    /// If no entity has a fact, that is said of each; of some that have it, others may take the place. A fact
+    /// about nobody knows whom never follows.
     fn free_facts<'c>(
         &self,
         condition: &'c Condition,

@@ -34,8 +34,8 @@ action needs_notok(e: Entity)
     needs not ok(e)
 ";
 
-/// Whether each call with a need is proven, in the order of the graph, in a policy over [`DOMAIN`]; the codes
-/// of the findings where it has no graph.
+/// Verdicts on the calls with needs of a policy over [`DOMAIN`], `true` where proven, in the order of the
+/// graph; the codes of the findings where it has no graph.
 fn proven(body: &str) -> Result<Vec<bool>, Vec<&'static str>> {
     let (session, _) = setup::session(None, None, &mut Sources::default());
     let source = Source::new("p.motet", format!("{DOMAIN}\npolicy p {{ {body} }}"));

@@ -99,7 +99,7 @@ fn start_a_step_that_lacks_its_drive_is_refused_with_the_drive() {
     assert!(fix.edits[0].text.starts_with("go(mug_1)"), "{fix:?}");
 }
 
-/// Where each path makes another one of the facts that are asked for, one of them holds.
+/// A need of one of several facts holds where each path makes another one of them.
 #[test]
 fn proofs_of_one_of_several_facts_look_at_each_path() {
     let declared = "entity b: Object\nentity c: Object\naction use_any()\n    needs f(any)\n\

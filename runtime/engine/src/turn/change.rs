@@ -19,6 +19,23 @@ struct ContractEntry<'a> {
     each: Option<KindId>,
 }
 
+/// All that a call may change, as unknown.
+fn changed(call: &CallNode) -> impl Iterator<Item = ContractEntry<'_>> {
+    let made = call.effects.iter().map(|effect| {
+        let (fact, when) = (&effect.fact, effect.when.as_ref());
+        ContractEntry { fact, value: Truth::Unknown, when, each: effect.each }
+    });
+    made.chain(unsettled(call))
+}
+
+/// What a call unsettles.
+fn unsettled(call: &CallNode) -> impl Iterator<Item = ContractEntry<'_>> {
+    call.unsettles.iter().map(|unsettled| {
+        let (fact, when) = (&unsettled.fact, unsettled.when.as_ref());
+        ContractEntry { fact, value: Truth::Unknown, when, each: unsettled.each }
+    })
+}
+
 /// True if a call may change what a need of it asks.
 pub(super) fn changes_need(call: &CallNode, need: &Need) -> bool {
     let effects = call.effects.iter().map(|effect| effect.fact.fluent);
@@ -274,11 +291,7 @@ impl Contracts<'_> {
         let uses = self.names(primitive.map_or(&[], |primitive| &primitive.uses));
         let mut moves = Vec::new();
         if primitive.is_some_and(|primitive| !primitive.perceives) {
-            let effects = call.effects.iter().map(|it| (&it.fact, it.when.as_ref(), it.each));
-            let unsettled = call.unsettles.iter().map(|it| (&it.fact, it.when.as_ref(), it.each));
-            for (fact, when, each) in effects.chain(unsettled) {
-                self.moved(ContractEntry { fact, value: Truth::Unknown, when, each }, &mut moves);
-            }
+            changed(call).for_each(|entry| self.moved(entry, &mut moves));
         }
         LifetimeEnd { uses, moves }
     }
@@ -307,18 +320,11 @@ impl Contracts<'_> {
 
     /// Works out all that a call may change, as unknown.
     pub(super) fn expand_all(&mut self, call: &CallNode, changes: &mut Vec<BeliefChange>) {
-        for effect in &call.effects {
-            let (fact, when) = (&effect.fact, effect.when.as_ref());
-            self.expand(ContractEntry { fact, value: Truth::Unknown, when, each: effect.each }, changes);
-        }
-        self.expand_unsettled(call, changes);
+        changed(call).for_each(|entry| self.expand(entry, changes));
     }
 
     fn expand_unsettled(&mut self, call: &CallNode, changes: &mut Vec<BeliefChange>) {
-        for unsettled in &call.unsettles {
-            let (fact, when) = (&unsettled.fact, unsettled.when.as_ref());
-            self.expand(ContractEntry { fact, value: Truth::Unknown, when, each: unsettled.each }, changes);
-        }
+        unsettled(call).for_each(|entry| self.expand(entry, changes));
     }
 
     fn apply(&mut self, changes: &[BeliefChange]) {
