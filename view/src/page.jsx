@@ -1,7 +1,7 @@
 // The page: gathers items, keeps the moment that is shown and the chosen step, and draws the regions.
 
 import { render } from "preact";
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import { Head, Questions } from "./controls.jsx";
 import { Known, StepDetails, Talk } from "./details.jsx";
 import { Camera } from "./camera.jsx";
@@ -79,11 +79,13 @@ function Page({ connect, ask, examples }) {
 
   const moment = useRef(0);
   moment.current = time ?? log.end;
-  useEffect(() => {
+  // A layout effect ends with the drawing that halts: no frame of before sets the time again. The first frame gives the time from
+  // which the others count: the time of a frame may lie before the moment in which it was asked for.
+  useLayoutEffect(() => {
     if (!playing) return;
-    let last = performance.now();
+    let last = null;
     let frame = requestAnimationFrame(function next(now) {
-      const at = moment.current + ((now - last) / 1000) * PACE;
+      const at = moment.current + ((now - (last ?? now)) / 1000) * PACE;
       last = now;
       if (at >= log.end) {
         setTime(null);
