@@ -48,23 +48,24 @@ pub(super) fn check(file: Option<&Path>, args: &RunArgs, report: &mut Report) ->
             hello.robot.clear();
         }
         let log = Box::new(WithErrors(log));
-        RemoteDriver::connect(address.clone(), hello, DriverTimeouts::default(), Time::ZERO, log)
+        let patience = DriverTimeouts { is_over: is_interrupted, ..DriverTimeouts::default() };
+        RemoteDriver::connect(address.clone(), hello, patience, Time::ZERO, log)
             .map_err(|breakage| format!("{} ({})", escape(&breakage.to_string()), address))
     };
     let said = command.to_string();
     let log = Box::new(|text: &str| note(&escape(text)));
     let result = conformance::check(command, args.patience, log, &mut connect, &mut |scene| {
-        print_scene(&scene, args.format, report);
-        if is_interrupted() || report.out.is_closed() {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
+        // What was broken off says nothing about the driver.
+        if is_interrupted() {
+            return ControlFlow::Break(());
         }
+        print_scene(&scene, args.format, report);
+        if report.out.is_closed() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
-    let DriverResult { driver, broken } = result.map_err(CliError::Message)?;
     if is_interrupted() || report.out.is_closed() {
         return Ok(Exit::Interrupted);
     }
+    let DriverResult { driver, broken } = result.map_err(CliError::Message)?;
     if args.format == OutputFormat::Human {
         let result = match broken {
             0 => "keeps the laws".to_owned(),

@@ -241,7 +241,8 @@ impl RemoteDriver {
         self.log.line(LineFrom::Host, &said);
         link.say(said)?;
         let due = Instant::now() + within;
-        while let Some(line) = link.hear(due.saturating_duration_since(Instant::now()))? {
+        let left = || due.saturating_duration_since(Instant::now());
+        while let Some(line) = link.hear_unless(left(), self.patience.is_over)? {
             match hear(&line).map_err(|why| nonsense(&line, why))? {
                 DriverMessage::Answer(answered, Ok(answer)) if answered == id => {
                     self.log.line(LineFrom::Driver, &line);

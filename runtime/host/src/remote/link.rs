@@ -172,6 +172,22 @@ impl Link {
         self.said.try_send(line).map_err(|_| LinkError::Deaf)
     }
 
+    /// The next line, if one comes in time and before the wait `is_over`.
+    pub(super) fn hear_unless(
+        &self,
+        within: Duration,
+        is_over: fn() -> bool,
+    ) -> Result<Option<String>, LinkError> {
+        let due = Instant::now() + within;
+        loop {
+            let left = due.saturating_duration_since(Instant::now());
+            match self.hear(left.min(SLICE))? {
+                None if !left.is_zero() && !is_over() => {}
+                heard => return Ok(heard),
+            }
+        }
+    }
+
     /// The next line, if one comes in time.
     pub(super) fn hear(&self, within: Duration) -> Result<Option<String>, LinkError> {
         match self.heard.recv_timeout(within) {
@@ -182,6 +198,8 @@ impl Link {
     }
 }
 
+/// The longest wait without a look at what is due.
+pub(super) const SLICE: Duration = Duration::from_millis(50);
 /// Grace period for a driver to end by itself after its link is dropped.
 const MOMENT: Duration = Duration::from_millis(200);
 

@@ -506,7 +506,7 @@ pub(crate) const SAYINGS: u32 = 2;
 /// let patient = DriverTimeouts { silence: Duration::from_secs(20), ..DriverTimeouts::default() };
 /// assert!(patient.recovery() > DriverTimeouts::default().recovery());
 /// ```
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct DriverTimeouts {
     /// To answer the greeting after it was started or called.
     pub greeting: Duration,
@@ -522,6 +522,8 @@ pub struct DriverTimeouts {
     pub restarts: u32,
     /// Time limit for a process to stop all motion and to end after `bye`. Then it is killed.
     pub farewell: Duration,
+    /// True once no answer and no report is waited for any more. It is asked every 50 ms.
+    pub is_over: fn() -> bool,
 }
 
 impl Default for DriverTimeouts {
@@ -536,6 +538,7 @@ impl Default for DriverTimeouts {
             silence: Duration::from_secs(5),
             restarts: 3,
             farewell: Duration::from_secs(5),
+            is_over: || false,
         }
     }
 }

@@ -86,7 +86,7 @@ impl RemoteDriver {
                 self.broke(&LinkError::Crowded);
                 return Err(LinkError::Crowded);
             }
-            let line = match link.hear(left) {
+            let line = match link.hear_unless(left, self.patience.is_over) {
                 Ok(Some(line)) => line,
                 Ok(None) => break,
                 Err(breakage) => {
@@ -118,7 +118,7 @@ impl RemoteDriver {
             if self.outbox.len() >= MAX_BEFORE_ANSWER {
                 return self.broke(&LinkError::Crowded);
             }
-            match link.hear(left) {
+            match link.hear_unless(left, self.patience.is_over) {
                 Ok(Some(line)) => self.hear_line(&line),
                 Ok(None) => self.broke(&LinkError::Silent(self.patience.step)),
                 Err(breakage) => self.broke(&breakage),

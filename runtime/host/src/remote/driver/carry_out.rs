@@ -1,5 +1,6 @@
 //! Commands of the engine as calls of the protocol.
 
+use super::super::link::SLICE;
 use super::super::protocol::{DriverCall, GoalParams, QueryParams, StartParams, ToldParams};
 use super::run_time::RunTime;
 use super::{RemoteDriver, failed};
@@ -10,9 +11,6 @@ use motet_runtime::{
 };
 use std::thread;
 use std::time::Duration;
-
-/// The longest wait without looking after what is due.
-const SLICE: Duration = Duration::from_millis(50);
 
 impl Driver for RemoteDriver {
     fn start(&mut self, _now: Time, goal: GoalId, command: &Command) {
@@ -117,6 +115,9 @@ impl Driver for RemoteDriver {
             if let Some((at, event)) = self.outbox.pop_front() {
                 self.last = at.min(until).max(self.last);
                 return Some((self.last, event));
+            }
+            if (self.patience.is_over)() {
+                return None;
             }
             let left = clock.left(until);
             match (left, &self.link) {
