@@ -121,8 +121,9 @@ pub(crate) fn converse(
     if observer.is_unanswered {
         exit = exit.or_worse(Exit::Failed);
     }
-    if is_interrupted() {
-        exit = Exit::Interrupted;
+    let is_done = request.is_some() && exit == Exit::Success;
+    if is_interrupted() && !is_done {
+        exit = if observer.is_unstopped { Exit::Failed } else { Exit::Interrupted };
     }
     observer.finish()?;
     page.iter().for_each(|page| page.borrow_mut().finish());

@@ -13,8 +13,8 @@ use motet_planner::vision::{GroundedPoint, GroundingDriver, GroundingTask};
 use motet_project::SavedDriver;
 use motet_robots::scene::Scene;
 use motet_runtime::{
-    Driver, Effect, Engine, Event, Observer as _, Perception, RunControl, RunEnd, StartState, SwapRefusal,
-    Time,
+    Driver, Effect, Engine, Event, Fault, Observer as _, Perception, RunControl, RunEnd, StartState,
+    SwapRefusal, Time,
 };
 use serde_json::json;
 
@@ -63,6 +63,8 @@ pub(super) struct RunObserver<'a> {
     patience: Duration,
     /// True once nobody could answer a question in the middle of a run.
     pub(super) is_unanswered: bool,
+    /// True if the driver did not confirm the stop of the latest run.
+    pub(super) is_unstopped: bool,
     /// Output of answers.
     out: Output,
 }
@@ -93,6 +95,7 @@ impl<'a> RunObserver<'a> {
             held_until: None,
             patience: PLANNING,
             is_unanswered: false,
+            is_unstopped: false,
             out: Output::default(),
         }
     }
@@ -290,6 +293,7 @@ impl DialogueObserver for RunObserver<'_> {
 
     fn ended(&mut self, _now: Time, end: &RunEnd) {
         self.held_until = None;
+        self.is_unstopped = matches!(end, RunEnd::Fault(Fault::NotStopped { .. }));
         if let Some(mut view) = self.view.take() {
             view.finish(end);
         }

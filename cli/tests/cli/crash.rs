@@ -26,6 +26,13 @@ fn drive(place: &Place) -> Child {
     command.spawn().unwrap()
 }
 
+/// Starts a command line with the driver of a place.
+fn start(place: &Place, line: &str) -> Child {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_motet"));
+    command.args(line.split(' ')).args(["--driver", "python3 driver.py"]).current_dir(place.path(""));
+    command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
+}
+
 const JOURNAL: &str = "run/000000000000.journal";
 
 #[test]
@@ -133,15 +140,8 @@ fn signals_to_end_name_what_still_runs_in_a_conversation() {
          if m['method'] == 'cancel':\n        time.sleep(1.5)\n        \
          say({'method': 'ended', 'params': dict(goal, outcome='interrupted')})\n",
     );
-    let request = "go to the kitchen table and then go to the counter";
-    let host = Command::new(env!("CARGO_BIN_EXE_motet"))
-        .args(["do", request, "--robot", "hsr", "--scene", "kitchen", "--driver", "python3 driver.py"])
-        .current_dir(place.path(""))
-        .stdin(Stdio::null())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
+    let request = "go_to_the_kitchen_table_and_then_go_to_the_counter";
+    let host = start(&place, &format!("do {request} --robot hsr --scene kitchen"));
     assert!(eventually(|| place.path("moves").exists()));
     for pause in [500, 0] {
         assert!(Command::new("kill").args(["-TERM", &host.id().to_string()]).status().unwrap().success());
@@ -151,6 +151,52 @@ fn signals_to_end_name_what_still_runs_in_a_conversation() {
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(130), "{said}");
     assert!(said.contains("may still move the robot: go(to: counter)\nthe run ends"), "{said}");
+}
+
+#[cfg(unix)]
+#[test]
+fn signals_to_end_give_a_failure_where_the_driver_confirms_no_stop() {
+    if !has_python() {
+        return;
+    }
+    let place = place(
+        "crash_unstopped",
+        "    if m['method'] in ('observe', 'watch'):\n        \
+         say({'id': m['id'], 'result': {'answer': 'unknown'}})\n    \
+         elif m['method'] in ('cancel', 'safe_stop'): sys.exit()\n    \
+         elif 'id' in m: say({'id': m['id'], 'result': {}})\n    \
+         if m['method'] == 'start': open('moves', 'w').close()\n",
+    );
+    for line in ["run away.motet", "do go_to_the_kitchen_table", "talk"] {
+        let mut host = start(&place, &format!("{line} --robot hsr --scene kitchen"));
+        std::io::Write::write_all(host.stdin.as_mut().unwrap(), b"go to the kitchen table\n").unwrap();
+        assert!(eventually(|| place.path("moves").exists()), "{line}");
+        Command::new("kill").args(["-HUP", &host.id().to_string()]).status().unwrap();
+        let output = host.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(3), "{line}: {output:?}");
+        std::fs::remove_file(place.path("moves")).unwrap();
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn signals_to_end_break_the_check_of_a_driver_off() {
+    if !has_python() {
+        return;
+    }
+    let place = place(
+        "crash_check",
+        "    if 'id' in m: say({'id': m['id'], 'result': {}})\n    \
+         if m['method'] == 'start': open('moves', 'w').close()\n",
+    );
+    let mut host = start(&place, "run --check --patience 600");
+    assert!(eventually(|| place.path("moves").exists()));
+    Command::new("kill").args(["-TERM", &host.id().to_string()]).status().unwrap();
+    let ends = eventually(|| host.try_wait().unwrap().is_some());
+    host.kill().unwrap();
+    let output = host.wait_with_output().unwrap();
+    assert!(ends, "it waits for the driver");
+    assert_eq!((output.status.code(), output.stdout.as_slice()), (Some(130), &b""[..]));
 }
 
 #[cfg(target_os = "linux")]

@@ -283,6 +283,12 @@ impl<'r, 'a> DialogueManager<'r, 'a> {
             }
             (Some(StopReason::Stop), _) => return RoundResult::Over(Outcome::GivenUp),
             (None, RunEnd::Interrupted) => return RoundResult::Over(Outcome::Stopped),
+            // Nothing begins anew after a stop.
+            (None, RunEnd::Fault(_) | RunEnd::Failed { .. } | RunEnd::Replan { .. })
+                if self.watcher.is_stopped() =>
+            {
+                return RoundResult::Over(Outcome::Stopped);
+            }
             (None, RunEnd::Declined { why }) => {
                 return RoundResult::Over(Outcome::Declined(why.clone().unwrap_or_default()));
             }
