@@ -1,6 +1,7 @@
 //! `motet agent`: runs orders on a robot, lets policies take over, and reports. It goes on without the link.
 
 use crate::link::{Fleet, RESULTS, STATES, ServerArgs, name, refusal, within_message};
+use crate::notes::note;
 use crate::run::{Events, OrderFolder, RunSettings, tell_page};
 use crate::ship::Shipment;
 use crate::signed::{
@@ -119,7 +120,7 @@ pub(crate) async fn serve(args: AgentArgs) -> Result<u8, String> {
     });
     crate::run::client();
     agent.take_up();
-    println!("ready");
+    let _ = crate::notes::write_lines(std::io::stdout()).send("ready".to_owned());
     let tasks = [
         tokio::spawn(forever(Arc::clone(&agent), "orders", |agent| async move { agent.take_orders().await })),
         tokio::spawn(forever(
@@ -165,7 +166,7 @@ where
         if let Err(why) = done
             && why != told
         {
-            eprintln!("motet-fleet: {what}: {}", why.escape_debug());
+            note(&format!("{what}: {why}"));
             told = why;
         }
         sleep(AGAIN).await;
@@ -245,7 +246,7 @@ impl Agent {
         order: Option<&SignedMessage>,
         why: &str,
     ) -> Result<(), String> {
-        eprintln!("motet-fleet: an order is refused: {}", why.escape_debug());
+        note(&format!("an order is refused: {why}"));
         if let Some((id, digest)) = claimed(&message.payload) {
             let result = json!({"state": "refused", "why": why});
             let folder = self.folder(&id);
@@ -399,7 +400,7 @@ impl Agent {
         if let Some((first, folder)) = first.zip(revoked())
             && first.0 == folder.0
         {
-            eprintln!("motet-fleet: {}: {REVOKED}", folder.id());
+            note(&format!("{}: {REVOKED}", folder.id()));
             folder.want_stop(REVOKED)?;
             let _ = tell_page(&folder, "/stop", String::new(), "text/plain").await;
         }

@@ -4,6 +4,7 @@ mod agent;
 mod archive;
 mod journal;
 mod link;
+mod notes;
 mod operator;
 mod results;
 mod run;
@@ -13,6 +14,7 @@ mod swap;
 mod view;
 
 use clap::{Parser, Subcommand};
+use std::io::Write as _;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -44,7 +46,7 @@ async fn main() -> ExitCode {
     match result {
         Ok(code) => code.into(),
         Err(why) => {
-            eprintln!("error: {}", why.escape_debug());
+            let _ = writeln!(std::io::stderr(), "error: {}", why.escape_debug());
             ExitCode::from(2)
         }
     }

@@ -6,7 +6,7 @@ use crate::signed::{Instruction, new_id, new_key, now, private_key, sign};
 use async_nats::jetstream::kv;
 use futures::StreamExt as _;
 use serde_json::{Value, json};
-use std::io::Read as _;
+use std::io::{Read as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -209,7 +209,7 @@ async fn send(fleet: &Fleet, args: &SendArgs) -> Result<u8, String> {
     let acknowledged = sent.map_err(|error| error.to_string())?.await;
     let acknowledged = acknowledged.map_err(|error| format!("the server did not take the order: {error}"))?;
     if acknowledged.duplicate {
-        eprintln!("motet-fleet: this order was sent before; it runs once");
+        let _ = writeln!(std::io::stderr(), "motet-fleet: this order was sent before; it runs once");
     }
     if !args.wait {
         say(&id);

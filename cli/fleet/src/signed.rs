@@ -100,7 +100,7 @@ impl TrustFile {
         match Trust::read(&self.path) {
             Ok(trust) => *last = (trust, String::new()),
             Err(why) if why != last.1 => {
-                eprintln!("motet-fleet: trust: {}; the keys before count", why.escape_debug());
+                crate::notes::note(&format!("trust: {why}; the keys before count"));
                 last.1 = why;
             }
             Err(_) => {}

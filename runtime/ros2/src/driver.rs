@@ -2,7 +2,7 @@
 
 mod stopping;
 
-use crate::lines::{Line, Output};
+use crate::lines::{Line, Output, note};
 use crate::observe::Found;
 use crate::plan::Card;
 use crate::robot::{Robot, RobotEvent};
@@ -151,7 +151,7 @@ impl Driver {
                     let heard = self.robot.tick();
                     self.pass(&heard);
                     if self.is_greeted && self.heard.elapsed() > SILENCE {
-                        eprintln!("motet-ros2: the host has said nothing for 5 s; everything stops");
+                        note("the host has said nothing for 5 s; everything stops");
                         return Ok(());
                     }
                 }

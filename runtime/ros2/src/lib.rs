@@ -113,13 +113,12 @@ pub fn run() -> ExitCode {
         Command::Tasks(args) => tasks::serve(&args),
         Command::Layouts(args) => layouts(&args),
     };
-    match result {
-        Ok(code) => code.into(),
-        Err(why) => {
-            eprintln!("error: {why}");
-            ExitCode::from(2)
-        }
-    }
+    let code = result.unwrap_or_else(|why| {
+        lines::print_error(format!("error: {why}"));
+        2
+    });
+    lines::end_notes();
+    code.into()
 }
 
 fn drive(args: DriveArgs) -> Result<u8, String> {

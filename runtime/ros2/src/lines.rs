@@ -1,7 +1,9 @@
-//! Lines of the host on standard input, and for the host on standard output.
+//! Lines of the host on standard input, and for the host on standard output; notes for people on standard
+//! error.
 
 use crossbeam_channel::{Receiver, Sender, TrySendError, bounded};
 use std::io::{BufRead, Write};
+use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 /// Longest line in bytes.
@@ -92,6 +94,25 @@ impl Drop for Output {
         // Ends with an error as soon as the thread has ended.
         let _ = self.written.recv_timeout(FAREWELL);
     }
+}
+
+/// Notes for people, from the first one on.
+static NOTES: Mutex<Option<Output>> = Mutex::new(None);
+
+/// Writes a note to standard error, as [`print_error`] does.
+pub(crate) fn note(text: &str) {
+    print_error(format!("motet-ros2: {}", text.escape_debug()));
+}
+
+/// Writes a line to standard error. One that nobody reads in time is left out, and stops nothing.
+pub(crate) fn print_error(line: String) {
+    let mut notes = NOTES.lock().unwrap_or_else(PoisonError::into_inner);
+    let _ = notes.get_or_insert_with(|| Output::open(std::io::stderr())).write(line);
+}
+
+/// Gives who reads the notes the time for the last of them.
+pub(crate) fn end_notes() {
+    drop(NOTES.lock().unwrap_or_else(PoisonError::into_inner).take());
 }
 
 #[cfg(test)]

@@ -510,7 +510,7 @@ impl Robot {
     /// Prints a problem once.
     pub(crate) fn tell(&mut self, text: &str) {
         if self.told.len() < 1_000 && self.told.insert(text.to_owned()) {
-            eprintln!("motet-ros2: {}", text.escape_debug());
+            crate::lines::note(text);
         }
     }
 }

@@ -6,6 +6,7 @@ use crate::action::{Uuid, uuid};
 use crate::cdr::{Message, decode, encode};
 use crate::dds::{Dds, Quality, Received, Source, Writer, dds_topic, dds_type};
 use crate::layout::{Distribution, Layouts};
+use crate::lines::{Output, note};
 use crate::service::{Interface, Middleware, PendingRequest, Server};
 use answers::{Answer, OpenQuestion, Page};
 use crossbeam_channel::{Receiver, Sender, bounded, select, tick};
@@ -123,7 +124,9 @@ pub(crate) fn serve(args: &TasksArgs) -> Result<u8, String> {
     // A run that says more than is told waits.
     let (said, heard) = bounded(WAITING);
     let mut tasks = Tasks::open(args, &dds, said)?;
-    println!("ready");
+    // Whoever starts it may not read.
+    let ready = Output::open(std::io::stdout());
+    let _ = ready.write("ready".to_owned());
     tasks.run(&received, &heard)
 }
 
@@ -178,7 +181,7 @@ impl<'a> Tasks<'a> {
             let done = select! {
                 recv(received) -> message => message.map_err(|_| "DDS has ended".to_owned()).map(|message| {
                     if let Err(wrong) = self.hear(&message) {
-                        eprintln!("motet-ros2: {}", wrong.escape_debug());
+                        note(&wrong);
                     }
                 }),
                 recv(heard) -> said => {
@@ -199,7 +202,7 @@ impl<'a> Tasks<'a> {
                 let (asked, request) = self.send.hear(&self.layouts, message)?;
                 let accepted = self.begin(&request);
                 if let Err(why) = &accepted {
-                    eprintln!("motet-ros2: a policy is refused: {}", why.escape_debug());
+                    note(&format!("a policy is refused: {why}"));
                 }
                 self.send.answer(&self.layouts, asked, &json!({"accepted": accepted.is_ok()}))?;
                 self.tell();
@@ -363,7 +366,7 @@ impl<'a> Tasks<'a> {
             for asked in goal.asked.drain(..) {
                 let answer = json!({"status": goal.status, "result": goal.result});
                 if let Err(wrong) = self.result.answer(&self.layouts, asked, &answer) {
-                    eprintln!("motet-ros2: {}", wrong.escape_debug());
+                    note(&wrong);
                 }
             }
         }
@@ -378,7 +381,7 @@ impl<'a> Tasks<'a> {
     fn publish(&self, writer: &Writer, type_name: &str, message: &Value) {
         let sent = encode(&self.layouts, type_name, message).and_then(|bytes| writer.write(bytes, None));
         if let Err(wrong) = sent {
-            eprintln!("motet-ros2: {}", wrong.escape_debug());
+            note(&wrong);
         }
     }
 }
