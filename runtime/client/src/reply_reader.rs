@@ -121,9 +121,10 @@ fn error(protocol: &WireProtocol, answer: &Value) -> Option<String> {
 
 /// Words of a server in one line, without the key, and not too many.
 pub(crate) fn shown(key: Option<&ApiKey>, words: &str) -> String {
-    let words = key.map_or_else(|| words.to_owned(), |key| key.cut_from(words));
-    let words = words.split_whitespace().collect::<Vec<_>>().join(" ");
-    words.chars().take(SHOWN_CHARS).collect()
+    let cut = |words: &str| key.map_or_else(|| words.to_owned(), |key| key.cut_from(words));
+    let words = cut(words).split_whitespace().collect::<Vec<_>>().join(" ");
+    // The key may have been broken by the white space.
+    cut(&words).chars().take(SHOWN_CHARS).collect()
 }
 
 /// Texts of a whole answer without a key.

@@ -224,7 +224,8 @@ impl ApiKey {
         format!("{prefix}{}", self.0)
     }
 
-    /// A text of the server, which may quote what it was sent, without the key, however JSON spells it.
+    /// A text of the server, which may quote what it was sent, without the key, however JSON or Motet spells
+    /// it.
     pub(crate) fn cut_from(&self, text: &str) -> String {
         let (mut cut, mut rest) = (String::with_capacity(text.len()), text);
         while let Some(first) = rest.chars().next() {
@@ -244,16 +245,16 @@ impl ApiKey {
 
     /// Offset at which a text ends with the beginning of the key; its length if it does not.
     pub(crate) fn begun_at(&self, text: &str) -> usize {
-        // Each character may be spelt as `\uXXXX`.
-        let longest = 6 * self.0.len();
+        // Each character may be spelt as `\u{XXXXXX}`.
+        let longest = 10 * self.0.len();
         let mut ends = text.char_indices().map(|(at, _)| at).filter(|at| text.len() - at <= longest);
         let begins =
             |at: &usize| matches!(text.get(*at..).map(|end| self.spelt_in(end)), Some(KeySpelling::Begun));
         ends.find(begins).unwrap_or(text.len())
     }
 
-    /// Compares the beginning of a text with the key. Each character stands for itself or is escaped as in
-    /// JSON.
+    /// Compares the beginning of a text with the key. Each character stands for itself, or is escaped as in
+    /// JSON or as Motet prints it.
     fn spelt_in(&self, text: &str) -> KeySpelling {
         let mut rest = text;
         for wanted in self.0.chars() {
@@ -265,6 +266,16 @@ impl ApiKey {
                 continue;
             }
             let Some(escape) = rest.strip_prefix('\\') else { return KeySpelling::Other };
+            if let Some(braced) = escape.strip_prefix("u{") {
+                let digits = braced.trim_start_matches(|digit: char| digit.is_ascii_hexdigit());
+                let code = braced.strip_suffix(digits).and_then(|code| u32::from_str_radix(code, 16).ok());
+                match digits.strip_prefix('}') {
+                    Some(after) if code == Some(u32::from(wanted)) => rest = after,
+                    None if digits.is_empty() && braced.len() <= 6 => return KeySpelling::Begun,
+                    Some(_) | None => return KeySpelling::Other,
+                }
+                continue;
+            }
             let digits = escape.strip_prefix('u').map(|digits| digits.get(..4.min(digits.len())));
             let (is_same, length) = match (digits, escape.chars().next()) {
                 (_, None) => return KeySpelling::Begun,

@@ -9,7 +9,7 @@ use reqwest::{Response, StatusCode};
 use serde_json::Value;
 
 use crate::dialect::Delivery;
-use crate::reply_reader::{shown, without_key};
+use crate::reply_reader::{content, shown, without_key};
 use crate::settings::ClientSettings;
 use crate::stream::{self, reason, timed_out};
 
@@ -116,7 +116,13 @@ pub(crate) async fn once(
         let text = stream::text(response, settings.max_bytes).await?;
         let mut answer = serde_json::from_str(&text)
             .map_err(|error| ModelError::Malformed { why: format!("it is no JSON: {error}") })?;
-        settings.key.iter().for_each(|key| without_key(key, &mut answer));
+        if let Some(key) = &settings.key {
+            without_key(key, &mut answer);
+            let text = content(settings.dialect, &answer).unwrap_or_default();
+            if key.cut_from(&text) != text {
+                return Err(ModelError::Malformed { why: "it has the key in it, in parts".to_owned() });
+            }
+        }
         Ok(answer)
     };
     tokio::time::timeout(settings.timeout, whole).await.unwrap_or_else(|_| Err(timed_out(settings.timeout)))

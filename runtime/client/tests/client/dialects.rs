@@ -328,11 +328,16 @@ fn client_key_that_a_server_sends_back_is_cut_out() {
         // As JSON within the text may spell it.
         vec!["a \\u0073k-very-s\\u0065cret b"],
         vec!["a \\u00", "73\\u006", "B-very-secre\\u007", "4 b"],
+        // As Motet prints it.
+        vec!["a \\u{73}k-very-s\\u{000065}cret b"],
+        vec!["a \\u", "{7", "3}k-very-secre\\u{74", "} b"],
     ] {
         let body: String = pieces.iter().map(|text| piece(text)).collect();
         let got = exchange(events(&(body + end)), |settings| settings, Dialect::Vllm);
         assert_eq!(got.text, "a [key] b", "{pieces:?}");
     }
+    let got = exchange(events(&(piece("\\u{73}k-very-s\\u{7a}") + end)), |settings| settings, Dialect::Vllm);
+    assert_eq!(got.text, "\\u{73}k-very-s\\u{7a}");
     // The beginning of a key that does not go on is text, also at the end.
     let got =
         exchange(events(&(piece("a sk-ve") + &piece("ll sk-") + end)), |settings| settings, Dialect::Vllm);
@@ -349,6 +354,17 @@ fn client_key_that_a_server_sends_back_is_cut_out() {
     let server = Server::new(vec![Act::AtOnce { text: format!("it is {KEY}") }]);
     let whole = Client::new(settings(&server, Dialect::OpenAi)).unwrap().once(&json!({})).unwrap();
     assert_eq!(content(None, &whole).as_deref(), Some("it is [key]"));
+    // Also where the parts of an answer, or its words in one line, have it only together.
+    let part = |text: &str| json!({"type": "text", "text": text});
+    let parts = json!({"type": "message", "content": [part("sk-very"), part("-secret")]}).to_string();
+    let server = Server::new(vec![answer("200 OK", "", &parts)]);
+    let why = Client::new(settings(&server, Dialect::Anthropic)).unwrap().once(&json!({})).unwrap_err();
+    assert!(why.to_string().contains("the key in it, in parts"), "{why}");
+    let server = Server::new(vec![answer("401 Unauthorized", "", "no such key: a\n b")]);
+    let key = ApiKey::new("a b");
+    let client = Client::new(ClientSettings { key, ..settings(&server, Dialect::OpenAi) }).unwrap();
+    let why = client.once(&json!({})).unwrap_err().to_string();
+    assert!(why.contains("no such key: [key]"), "{why}");
 }
 
 #[test]
