@@ -72,12 +72,20 @@ fn dialog_reports_errors_with_their_place() {
             "<user> Bring the mug.\n<robot> Which mug do you mean, the red or the blue one?\n",
         )
         .file("untagged.txt", "hello\n<user> hi\n")
+        .file("many.txt", format!("<user> a\n<robot> {}\n", "go to counter, ".repeat(5_001)))
+        .file("long.txt", format!("<user> a\n<robot> go to {}counter\n", "the ".repeat(30)))
         .file("empty.txt", " \n");
     for (line, code, texts) in [
         ("dialog juggle.txt", 1, &["err:exchange 1: action 2, `juggle coke`: no action is called so"][..]),
         ("dialog double.txt", 1, &["err:M0501", "out:pick(coke)"]),
         ("dialog question.txt", 1, &["err:exchange 1: the robot asks: Which mug do you mean"]),
         ("dialog untagged.txt", 1, &["err:line 1: `hello` stands before the first tag"]),
+        (
+            "dialog many.txt",
+            1,
+            &["err:exchange 1: action 5001, `go to counter`: a list has at most 5000 actions"],
+        ),
+        ("dialog long.txt", 1, &["err:a name has at most 100 bytes"]),
         ("dialog empty.txt", 1, &["err:there is no action in it"]),
         ("dialog gone.txt", 2, &["err:cannot read `gone.txt`"]),
         ("dialog", 2, &["err:<FILE>"]),

@@ -86,6 +86,10 @@ const BETWEEN: &[&str] =
 
 /// The longest action that is read, in bytes.
 const MAX_ACTION_BYTES: usize = 4_096;
+/// The most actions of a list.
+const MAX_ACTIONS: usize = 5_000;
+/// The longest name of a thing that is no id, in bytes.
+const MAX_NAME_BYTES: usize = 100;
 
 /// Reads a list of actions as a policy for a robot in a context. O(actions · objects).
 ///
@@ -106,7 +110,8 @@ const MAX_ACTION_BYTES: usize = 4_096;
 ///
 /// # Errors
 ///
-/// The first unknown action, the first action that the robot lacks, or the first unclear object.
+/// The first unknown action, the first action that the robot lacks, the first unclear object, or the first
+/// action that is too many.
 pub fn read(
     text: &str,
     name: &str,
@@ -117,6 +122,11 @@ pub fn read(
     let items = items(text, situation.scene);
     if items.is_empty() {
         return Err(NoPolicy::Empty);
+    }
+    if let Some(first) = items.get(MAX_ACTIONS) {
+        let action = shown(first, situation.scene).chars().take(QUOTED).collect();
+        let what = format!("a list has at most {MAX_ACTIONS} actions; split it into several");
+        return Err(NoPolicy::Unclear { number: MAX_ACTIONS + 1, action, what });
     }
     let mut reader = Reader::new(Some(session), situation);
     let mut policy = format!("policy {}", print::identifier(name));
@@ -353,6 +363,9 @@ impl<'a> Reader<'a> {
         }
         if words == entities::START && kinds.contains(&kinds::PLACE) {
             return Ok(SmolStr::new_static(entities::START));
+        }
+        if words.len() > MAX_NAME_BYTES {
+            return Err(format!("a name has at most {MAX_NAME_BYTES} bytes"));
         }
         let options: Vec<SmolStr> = scene.entities.keys().filter(|id| of_kind(id)).cloned().collect();
         let found = motet_requests::pick(words, &options, self.situation).or_else(|| {
