@@ -206,7 +206,7 @@ pub struct Read {
 }
 
 /// Wanted reply of a model.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub enum Target {
     /// A policy, in either form of the language.
     Policy(String),

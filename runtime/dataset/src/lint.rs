@@ -96,6 +96,8 @@ pub struct Linter<'w> {
     images: Option<&'w mut dyn ImageCheck>,
     /// Robot and scene of the row before, and their testbed: rows of one scene mostly follow each other.
     testbed: Option<((SmolStr, SmolStr), Result<Testbed, String>)>,
+    /// Faults of the replies on this testbed: many inputs have the same one.
+    faults: FxHashMap<Target, Option<String>>,
     /// Inputs, with the answer and where it stands.
     inputs: FxHashMap<String, (String, Place)>,
     /// In which file a scene, or a variation of it, was first.
@@ -111,6 +113,7 @@ impl<'w> Linter<'w> {
             worlds,
             images: None,
             testbed: None,
+            faults: FxHashMap::default(),
             inputs: FxHashMap::default(),
             families: FxHashMap::default(),
             leaked: FxHashSet::default(),
@@ -211,9 +214,13 @@ impl<'w> Linter<'w> {
             let posture = worlds.postures.get(scene).unwrap_or(&at_start);
             let testbed = Testbed::new(body, (known, posture), worlds.effort);
             self.testbed = Some((key, testbed));
+            self.faults.clear();
         }
         match self.testbed.as_ref().map(|(_, testbed)| testbed) {
-            Some(Ok(testbed)) => Ok(fault(testbed, &row.target)),
+            Some(Ok(testbed)) => {
+                let known = self.faults.entry(row.target.clone());
+                Ok(known.or_insert_with_key(|target| fault(testbed, target)).clone())
+            }
             Some(Err(why)) => Err(format!("its robot cannot be in its scene: {why}")),
             None => Ok(None),
         }
