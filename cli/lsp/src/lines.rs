@@ -80,15 +80,6 @@ impl LineIndex {
         (self.position(span.start as usize), self.position(span.end.max(span.start) as usize))
     }
 
-    /// Text with a range replaced.
-    pub(crate) fn replaced(&self, from: LinePosition, to: LinePosition, by: &str) -> String {
-        let (from, to) = (self.offset(from), self.offset(to));
-        let (from, to) = (from.min(to), from.max(to));
-        let before = self.text.get(..from).unwrap_or("");
-        let after = self.text.get(to..).unwrap_or("");
-        format!("{before}{by}{after}")
-    }
-
     /// End of a line, before its break.
     pub(crate) fn line_end(&self, line: usize) -> LinePosition {
         let start = self.starts.get(line).copied().unwrap_or(self.text.len());
@@ -130,14 +121,5 @@ mod tests {
         assert_eq!(lines.offset(at(0, 99)), 6, "behind the line");
         assert_eq!(lines.offset(at(1, 99)), TEXT.find('\r').unwrap(), "before \\r\\n");
         assert_eq!(lines.offset(at(99, 0)), TEXT.len());
-    }
-
-    #[test]
-    fn replaced_changes_a_range() {
-        let lines = LineIndex::new("a😀b\nc");
-        let at = |line, column| LinePosition { line, column };
-        assert_eq!(lines.replaced(at(0, 1), at(0, 3), "-"), "a-b\nc");
-        assert_eq!(lines.replaced(at(1, 1), at(0, 3), ""), "a😀", "a range that ends before it begins");
-        assert_eq!(lines.replaced(at(7, 0), at(7, 0), "!"), "a😀b\nc!");
     }
 }
