@@ -4,7 +4,7 @@ use super::read::require_file;
 use super::{JournalError, JournalTail, LOCK, read, segment_name};
 use motet_runtime::journal::{JournalEntry, JournalHead, LineChain, SEGMENT_BYTES};
 use std::fs::{self, File, OpenOptions};
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -179,10 +179,11 @@ impl JournalWriter {
     ///
     /// # Errors
     ///
-    /// The system does not say that it is.
+    /// The system does not say that it is, or the file was deleted.
     pub fn sync(&mut self) -> Result<(), JournalError> {
         if self.waiting.take().is_some() {
-            self.file.sync_data().map_err(JournalError::io("cannot sync", &self.path))?;
+            let synced = self.file.sync_data().and_then(|()| require_name(&self.file));
+            synced.map_err(JournalError::io("cannot sync", &self.path))?;
         }
         Ok(())
     }
@@ -225,6 +226,15 @@ fn lock(folder: &Path) -> Result<Lock, JournalError> {
         Err(fs::TryLockError::WouldBlock) => Err(JournalError::Busy { path: folder.to_owned() }),
         Err(fs::TryLockError::Error(source)) => Err(JournalError::Io { what: "cannot lock", path, source }),
     }
+}
+
+/// Refuses a file that was deleted: nobody finds what is written to it.
+fn require_name(file: &File) -> io::Result<()> {
+    #[cfg(unix)]
+    if std::os::unix::fs::MetadataExt::nlink(&file.metadata()?) == 0 {
+        return Err(io::Error::new(io::ErrorKind::NotFound, "the file was deleted"));
+    }
+    Ok(())
 }
 
 /// A new file for lines. It is in its folder for good before anything is written to it.

@@ -2,7 +2,7 @@
 
 use motet_arbitrary::graph::{StepSketch, graph};
 use motet_graph::Graph;
-use motet_host::journal::{JournalError, JournalWriter, RunRecorder, read};
+use motet_host::journal::{JournalError, JournalWriter, RunRecorder, SyncGrouping, read};
 use motet_runtime::journal::{EngineReplay, JournalEntry, JournalHead};
 use motet_runtime::{
     Command, Driver, DriverEvent, Effect, Engine, GoalId, Observer, Outcome, PreparedSwap, Query,
@@ -168,6 +168,23 @@ fn journal_where_nothing_can_be_written_nothing_starts() {
     let end = run(&mut engine, &mut OneSecond::default(), &mut full, Time::ZERO);
     assert_eq!(full.starts, 2, "the third start was never carried out");
     assert!(matches!(end, RunEnd::Failed { .. } | RunEnd::Interrupted), "{end}");
+}
+
+#[cfg(unix)]
+#[test]
+fn journal_that_is_deleted_ends_the_run() {
+    let folder = folder("deleted");
+    let graph = graph(&vec![StepSketch::say("hello"); 9]);
+    let each = SyncGrouping { lines: 1, ..SyncGrouping::default() };
+    let writer = JournalWriter::create(&folder, JournalHead::new(&graph)).unwrap().with_grouping(each);
+    fs::remove_dir_all(&folder).unwrap();
+    let mut engine = Engine::new(graph, &StartState::default()).unwrap();
+    let mut nobody = ();
+    let mut recorder = RunRecorder::new(writer, &mut nobody);
+    let end = run(&mut engine, &mut OneSecond::default(), &mut recorder, Time::ZERO);
+    assert!(matches!(end, RunEnd::Failed { .. } | RunEnd::Interrupted), "{end}");
+    let error = recorder.finish().unwrap_err().to_string();
+    assert!(error.ends_with("the file was deleted"), "{error}");
 }
 
 /// Lets these graphs take over, one after each event.
