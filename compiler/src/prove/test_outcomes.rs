@@ -5,13 +5,17 @@
 //! all others are.
 
 use motet_syntax::ast::CompareOp;
+use smallvec::SmallVec;
 
 use super::Prover;
+use crate::declare::Library;
 use crate::facts::{Cause, FactKey, TruthSet, effort};
-use crate::ir::{BindingId, Condition, Fluent, Program, Term, Ty};
+use crate::ir::{BindingId, Condition, Fluent, Program, StepKind, Term, Ty};
 
 /// Maximal number of different tests of a policy that are remembered.
 const MAX_TESTS: usize = 1000;
+/// Maximal number of tests of one value that are taken together.
+const MAX_BESIDE: usize = 16;
 
 /// Table of the outcomes of tests, with the tests in the order of their keys.
 #[derive(Clone, Debug)]
@@ -48,43 +52,87 @@ fn key(index: usize) -> Option<FactKey> {
     Some(FactKey::new([u16::try_from(index).ok()?].into_iter()))
 }
 
+/// Test with its outcome and the cause of it.
+type KnownTest<'t> = (&'t Test, bool, Cause);
+
 impl Test {
     /// A comparison, if nothing but another binding of a name can change its outcome.
-    fn new(op: CompareOp, left: &Term, right: &Term) -> Option<Self> {
+    fn new(op: CompareOp, left: &Term, right: &Term, program: &Program) -> Option<Self> {
         let is_fixed = |term: &Term| term.is_constant() || names(term);
         if !is_fixed(left) || !is_fixed(right) {
             return None;
         }
         let (op, of, with) = if left.is_constant() { (turned(op), right, left) } else { (op, left, right) };
-        (!of.is_constant()).then(|| Self { op, of: of.clone(), with: with.clone() })
+        let length = || length(of, program).cloned().unwrap_or_else(|| of.clone());
+        (!of.is_constant()).then(|| Self { op, of: length(), with: with.clone() })
     }
 
-    /// Outcome of another test that follows from the outcome of this one.
-    fn implies(&self, outcome: bool, other: &Self, program: &Program) -> Option<bool> {
-        if self.of != other.of {
-            return None;
-        }
-        let (a, b) = match (number(&self.with), number(&other.with)) {
-            (Some(a), Some(b)) => (a, b),
-            _ if self.with == other.with => (0.0, 0.0),
-            _ if is_other(&self.with, &other.with) => (0.0, 1.0),
-            _ => return None,
+    /// Returns whether another test says something about the outcome of this one.
+    fn is_beside(&self, other: &Self) -> bool {
+        let is_number = || number(&self.with).is_some() && number(&other.with).is_some();
+        self.of == other.of && (self.with == other.with || is_number() || is_other(&self.with, &other.with))
+    }
+
+    /// Outcome that follows from the outcomes of tests beside this one.
+    fn implied_by(&self, known: &[KnownTest<'_>], (program, library): (&Program, &Library)) -> Option<bool> {
+        let mut constants: Vec<&Term> = vec![&self.with];
+        constants.extend(known.iter().map(|(test, ..)| &test.with));
+        let position = |with: &Term| match with {
+            Term::Bool(value) => f64::from(u8::from(*value)),
+            Term::Case(_, case) => f64::from(*case),
+            with => number(with)
+                .unwrap_or_else(|| constants.iter().position(|one| *one == with).unwrap_or(0) as f64),
         };
-        // Both tests are constant between their bounds: one value of each part stands for all.
-        let near = |value: f64| [value.floor() - 1.0, value.floor(), value, value.ceil(), value.ceil() + 1.0];
-        let whole = is_whole(&self.of, program) && number(&self.with).is_some();
-        let is_value = |value: &f64| {
-            (!whole || value.fract() == 0.0) && (*value >= 0.0 || !matches!(self.of, Term::Count(_)))
+        let whole = is_whole(&self.of, program);
+        let is_value = |value: f64| match &self.with {
+            Term::Bool(_) => value == 0.0 || value == 1.0,
+            Term::Case(of, _) => {
+                let count = library.enums.get(of.index()).map_or(0, |of| of.cases.len());
+                value.fract() == 0.0 && (0.0..count as f64).contains(&value)
+            }
+            Term::Int(_) | Term::Number(_) => {
+                (!whole || value.fract() == 0.0) && (value >= 0.0 || !matches!(self.of, Term::Count(_)))
+            }
+            _ => true,
         };
-        let values = near(a).into_iter().chain(near(b)).chain([f64::midpoint(a, b)]).filter(is_value);
-        let mut found = None;
-        for value in values.filter(|value| holds(self.op, *value, a) == outcome) {
-            let is_so = holds(other.op, value, b);
-            if *found.get_or_insert(is_so) != is_so {
-                return None;
+        // All tests are constant between their bounds: one value of each part stands for all.
+        let mut bounds: Vec<f64> = constants.iter().map(|with| position(with)).collect();
+        bounds.sort_unstable_by(f64::total_cmp);
+        let near = |value: &f64| {
+            [value.floor() - 1.0, value.floor(), *value, value.ceil(), value.ceil() + 1.0].into_iter()
+        };
+        let between = bounds.iter().zip(bounds.iter().skip(1)).map(|(one, next)| f64::midpoint(*one, *next));
+        let values = bounds.iter().flat_map(near).chain(between).filter(|value| is_value(*value));
+        let (own, mut found) = (position(&self.with), None);
+        effort::spend(bounds.len() * bounds.len());
+        for value in values {
+            if known.iter().all(|(test, outcome, _)| holds(test.op, value, position(&test.with)) == *outcome)
+            {
+                let is_so = holds(self.op, value, own);
+                if *found.get_or_insert(is_so) != is_so {
+                    return None;
+                }
             }
         }
         found
+    }
+}
+
+/// The length of a list that a binding is a name for. A step that binds the list anew comes before the one
+/// that names its length anew, and no use stands between.
+fn length<'p>(term: &Term, program: &'p Program) -> Option<&'p Term> {
+    let binder = |term: &Term| match term {
+        Term::Binding(id) => match *program.bindings.get(id.index())?.binders.as_slice() {
+            [binder] => program.step(binder),
+            _ => None,
+        },
+        _ => None,
+    };
+    let StepKind::Let { value, .. } = &binder(term)?.kind else { return None };
+    match value {
+        Term::Count(list) => binder(list).map(|_| value),
+        Term::Binding(_) => length(value, program),
+        _ => None,
     }
 }
 
@@ -157,16 +205,26 @@ fn turned(op: CompareOp) -> CompareOp {
 impl Prover<'_> {
     /// Outcome of a comparison, as far as earlier tests show it. O(tests).
     pub(super) fn recall(&self, op: CompareOp, left: &Term, right: &Term) -> TruthSet {
-        let Some(test) = Test::new(op, left, right) else { return TruthSet::NOTHING_KNOWN };
+        let Some(test) = Test::new(op, left, right, self.program) else { return TruthSet::NOTHING_KNOWN };
         effort::spend(self.tested.tests.len());
-        for (index, known) in self.tested.tests.iter().enumerate() {
+        let (input, mut known) = ((self.program, self.library), SmallVec::<[KnownTest<'_>; 4]>::new());
+        for (index, other) in self.tested.tests.iter().enumerate().filter(|(_, other)| test.is_beside(other))
+        {
             let Some(key) = key(index) else { break };
             let value = self.state.facts.get(self.tested.fluent, key);
-            let outcome = value.is_true();
-            if (outcome || value.is_false())
-                && let Some(implied) = known.implies(outcome, &test, self.program)
-            {
-                return TruthSet::of(implied, if outcome { value.yes } else { value.no });
+            if value.is_true() || value.is_false() {
+                let outcome = value.is_true();
+                let cause = if outcome { value.yes } else { value.no };
+                known.push((other, outcome, cause));
+                // The cause is the test that shows it alone, or the last one.
+                let implied = test.implied_by(&[(other, outcome, cause)], input);
+                let implied = implied.or_else(|| {
+                    let shows = known.len() > 1 && known.len() <= MAX_BESIDE;
+                    shows.then(|| test.implied_by(&known, input)).flatten()
+                });
+                if let Some(implied) = implied {
+                    return TruthSet::of(implied, cause);
+                }
             }
         }
         TruthSet::NOTHING_KNOWN
@@ -178,7 +236,8 @@ impl Prover<'_> {
         if known.is_true() || known.is_false() {
             return;
         }
-        if let Some(key) = Test::new(op, left, right).and_then(|test| self.tested.key(test)) {
+        let test = Test::new(op, left, right, self.program);
+        if let Some(key) = test.and_then(|test| self.tested.key(test)) {
             self.state.facts.set(self.tested.fluent, key, TruthSet::of(truth, cause));
         }
     }

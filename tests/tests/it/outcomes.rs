@@ -224,3 +224,28 @@ fn outcomes_goal_that_is_seen_to_be_false_fails_the_run() {
     });
     assert!(failed.count() > 3);
 }
+
+#[test]
+fn tests_of_what_cannot_change_agree_however_they_are_written() {
+    let declared = "enum Mode { slow, fast, off }\nfluent ready()\nperception all(what: Text) -> List<Object>\n\
+                    perception which() -> Mode\naction prepare()\n    makes ready()\naction start_it()\n    \
+                    needs ready()\ninitially not ready()\n";
+    for (body, is_right) in [
+        ("if n >= 2 { prepare() } if count(xs) >= 2 { start_it() }", true),
+        ("if count(xs) <= 3 { prepare() } if n < 4 { start_it() }", true),
+        ("if n == 0 { prepare() } if is_empty(xs) { start_it() }", true),
+        ("if n == 2 { prepare() } if count(xs) > 1 { if n < 3 { start_it() } }", true),
+        ("if n == 2 { prepare() } if count(xs) > 1 { if n < 4 { start_it() } }", false),
+        ("if n >= 2 { prepare() } if count(xs) >= 1 { start_it() }", false),
+        ("if m == slow { prepare() } else if m == fast { prepare() } if m != off { start_it() }", true),
+        ("if m == slow or m == fast { prepare() } if m != off { start_it() }", true),
+        ("if m == slow { prepare() } if m != off { start_it() }", false),
+        ("if m == slow { prepare() } else if m == fast { prepare() } if m == off { start_it() }", false),
+    ] {
+        let bound = "let xs = all(\"mug\") let n = count(xs) let m = which()";
+        let text = format!("{declared}policy p {{ {bound} {body} }}");
+        let (session, _) = setup::session(None, None, &mut Sources::default());
+        let compiled = session.compile(&read(&Source::new("p", text), FileId(0)), None);
+        assert_eq!(compiled.graph.is_some(), is_right, "{body}: {:#?}", compiled.diagnostics);
+    }
+}
