@@ -239,13 +239,13 @@ impl<'a> Domain<'a> for Prover<'a> {
             }
             self.control.disturbed.push(atom);
             let ((fluent, key), value) = (atom, TruthSet::open(Cause::step(id)));
-            self.state.volatile.push(Volatile { fluent, key, value, when: None });
+            self.state.volatile.push(Volatile { fluent, key, value, when: None, restored: false });
         }
         // What a perception makes here a step of another branch may make stale at once.
         for (fluent, key) in self.expired_beside(id, changes, index) {
             self.control.disturbed.push((fluent, key));
             let value = TruthSet::open(Cause::step(id));
-            self.state.volatile.push(Volatile { fluent, key, value, when: None });
+            self.state.volatile.push(Volatile { fluent, key, value, when: None, restored: false });
         }
         // A name from before the block may be what another branch changes.
         self.erode();

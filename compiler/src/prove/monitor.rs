@@ -194,9 +194,21 @@ impl<'a> Prover<'a> {
             self.free_facts(&when.condition, (false, when.hold_secs == 0.0), &mut free);
         }
         let value = TruthSet::open(Cause::step(id));
-        let rows =
-            self.atoms_of(free).into_iter().map(|(fluent, key)| Volatile { fluent, key, value, when: None });
+        let row = |(fluent, key)| Volatile { fluent, key, value, when: None, restored: false };
+        let rows = self.atoms_of(free).into_iter().map(row);
         self.state.volatile.extend(rows);
+        // What a step does to a name may set it off. Then it goes on when the world has undone that.
+        let goes_on =
+            |when: &&When| matches!(when.reaction, Reaction::Pause { .. } | Reaction::Resume { .. });
+        let mut restored = Vec::new();
+        for when in whens.iter().filter(goes_on).filter(|when| when.hold_secs == 0.0) {
+            settled_facts(&when.condition, false, &mut restored);
+        }
+        for (fact, truth) in restored {
+            let (fluent, key) = (fact.fluent, self.widest_key(fact, CallFrame::default()));
+            let value = TruthSet::of(truth, Cause::step(id));
+            self.state.volatile.push(Volatile { fluent, key, value, when: None, restored: true });
+        }
     }
 
     /// Records the facts that `resume` reactions change from any of these states as volatile in the body;
@@ -229,7 +241,13 @@ impl<'a> Prover<'a> {
                         row.value = joined;
                     }
                     None => {
-                        self.state.volatile.push(Volatile { fluent, key, value, when: Some(when.span) });
+                        self.state.volatile.push(Volatile {
+                            fluent,
+                            key,
+                            value,
+                            when: Some(when.span),
+                            restored: false,
+                        });
                         grown = true;
                     }
                 }
@@ -522,6 +540,20 @@ impl<'a> Prover<'a> {
         for (fluent, key) in self.atoms_of(free) {
             self.state.facts.set(fluent, key, TruthSet::open(Cause::step(id)));
         }
+    }
+}
+
+/// Collects the facts whose truth follows from that of a condition, each with its truth.
+fn settled_facts<'c>(condition: &'c Condition, truth: bool, settled: &mut Vec<(&'c Fact, bool)>) {
+    match condition {
+        Condition::Fact(fact) => settled.push((fact, truth)),
+        Condition::Not(inner) => settled_facts(inner, !truth, settled),
+        Condition::All(parts) | Condition::AnyOf(parts)
+            if parts.len() == 1 || truth == matches!(condition, Condition::All(_)) =>
+        {
+            parts.iter().for_each(|part| settled_facts(part, truth, settled));
+        }
+        _ => {}
     }
 }
 

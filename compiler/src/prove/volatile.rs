@@ -17,6 +17,9 @@ pub(crate) struct Volatile {
     pub(crate) value: TruthSet,
     /// Span of the monitor's condition; `None` for a branch.
     pub(crate) when: Option<Span>,
+    /// True if only names that may be about the fact feel it: a monitor waits for the world to restore the fact
+    /// itself.
+    pub(crate) restored: bool,
 }
 
 impl Volatile {
@@ -39,7 +42,8 @@ impl Prover<'_> {
             return;
         }
         let rows = std::mem::take(&mut self.state.volatile);
-        let patterns: Vec<&Volatile> = rows.iter().filter(|row| row.key.is_pattern()).collect();
+        let own = || rows.iter().filter(|row| !row.restored);
+        let patterns: Vec<&Volatile> = own().filter(|row| row.key.is_pattern()).collect();
         // What another reaction or the world may do to all of a pattern, it may do to this one.
         let wider = |row: &Volatile| {
             let (fluent, key, when) = (row.fluent, row.key, row.when);
@@ -48,7 +52,7 @@ impl Prover<'_> {
             };
             patterns.iter().filter(is_wider).map(|other| other.value)
         };
-        let single = rows.iter().filter(|row| !row.key.is_pattern());
+        let single = own().filter(|row| !row.key.is_pattern());
         let single = single.map(|row| {
             let value = self.read(row.fluent, row.key).join(row.value);
             (row, wider(row).fold(value, TruthSet::join))
@@ -89,6 +93,7 @@ impl Prover<'_> {
             partition.change(|(fluent, key), known| {
                 let of_fluent = rows.iter().filter(|row| row.fluent == fluent);
                 of_fluent.fold(known, |known, row| match row.key.covers(key) {
+                    true if row.restored => known,
                     true => known.join(row.value),
                     false if self.is_perhaps(row, (fluent, key), rows) => row.perhaps(known),
                     false => known,
@@ -104,7 +109,13 @@ impl Prover<'_> {
         let params = self.library.fluent(fluent).map_or(&[][..], |def| &def.params);
         let is_own = |other: &Volatile| (other.fluent, other.key, other.when) == (fluent, key, row.when);
         let is_told = row.key.covers(key) || row.when.is_some() && rows.iter().any(is_own);
-        !is_told && self.has_symbol(fluent, key) && self.may_be_same(params, row.key, key)
+        !is_told && self.is_name(row, (fluent, key)) && self.may_be_same(params, row.key, key)
+    }
+
+    /// Returns whether a fact or a row is about a name that may be what the other is about. Else the fact has a
+    /// row of its own, but for those that are restored.
+    fn is_name(&self, row: &Volatile, (fluent, key): Atom) -> bool {
+        self.has_symbol(fluent, key) || row.restored && self.has_symbol(fluent, row.key)
     }
 
     /// Weakens the facts about names that may be what a row is about. A name that the body has bound has no
@@ -116,8 +127,9 @@ impl Prover<'_> {
         fluents.dedup();
         for fluent in fluents {
             let mut names = Vec::new();
+            let of_fluent = || rows.iter().filter(|row| row.fluent == fluent);
             self.state.facts.written_parts(fluent, |key| {
-                if self.has_symbol(fluent, key) {
+                if of_fluent().any(|row| self.is_name(row, (fluent, key))) {
                     names.push(key);
                 }
             });
@@ -125,7 +137,7 @@ impl Prover<'_> {
             // The wider first, so that what they cover is written after them.
             names.sort_unstable_by_key(|key| (!key.is_pattern(), *key));
             for key in names {
-                for row in rows.iter().filter(|row| row.fluent == fluent) {
+                for row in of_fluent() {
                     if self.is_perhaps(row, (fluent, key), rows) {
                         self.state.facts.change(fluent, key, |_, known| row.perhaps(known));
                     }

@@ -115,6 +115,18 @@ fn names_feel_what_the_world_does_to_what_is_watched() {
              { let m = look_o(\"x\") unmark2(m) wait 3 s needs_notok(m) }",
             vec![true],
         ),
+        // A name may set it off by itself, and then the world restores the fact.
+        (
+            "wash(a) monitor when not clean(a) then pause during \
+             { let m = look_o(\"x\") soil(m) wait 3 s use_not(m) }",
+            vec![false],
+        ),
+        (
+            "let k = look_o(\"y\") wash(k) monitor when not clean(k) then pause during \
+             { soil(a) wait 3 s use_not(a) }",
+            vec![false],
+        ),
+        ("wash(a) monitor when not clean(a) then pause during { wash(b) wait 3 s use(b) }", vec![true]),
     ] {
         assert_eq!(proven(body), Ok(expected), "{body}");
     }
