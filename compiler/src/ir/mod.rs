@@ -60,6 +60,8 @@ pub(crate) const ROBOT: Entity = Entity(0);
 pub(crate) const USER: Entity = Entity(1);
 /// The place where the robot stood when the policy began.
 pub(crate) const START: Entity = Entity(2);
+/// An entity that has no name, below the number of `any`: it stands for all that nobody has named yet.
+pub(crate) const NOBODY: Entity = Entity(u16::MAX - 1);
 /// The failure that every primitive can end in.
 pub(crate) const TIMEOUT: Failure = Failure(0);
 

@@ -79,7 +79,8 @@ impl<'a> Prover<'a> {
         let Some(Term::Param(index)) = args.first() else { return };
         let Some(Term::Pose { xyz: [x, y, _], .. }) = frame.args.get(usize::from(*index)) else { return };
         let facts = base_pose_facts::from_base(self.library, self.environment, [*x, *y]);
-        let change = |(fluent, key, truth)| FactChange { fluent, key, truth, sure: Certainty::Always };
+        let change =
+            |(fluent, key, truth)| FactChange { fluent, key, truth, sure: Certainty::Always, nameless: None };
         let changes: Vec<FactChange> = facts.into_iter().map(change).collect();
         self.make(&changes, cause);
     }

@@ -13,7 +13,7 @@ use smallvec::SmallVec;
 use smol_str::SmolStr;
 
 use crate::declare::{EffectDef, PerceptionLifetime, PrimitiveDef};
-use crate::ir::{Entity, Fact, Fluent, Kind, StepId, Term, Ty};
+use crate::ir::{Condition, Entity, Fact, Fluent, Kind, NOBODY, StepId, Term, Ty};
 
 /// Maximal number of facts that one with symbols may be, before all facts of its fluent are weakened.
 const MAX_INSTANCES: usize = 4096;
@@ -25,12 +25,14 @@ pub(crate) struct FactChange {
     pub(crate) key: FactKey,
     pub(crate) truth: bool,
     pub(super) sure: Certainty,
+    /// Place of an argument, `any` in the key: only entities that have no name there feel the change.
+    pub(super) nameless: Option<usize>,
 }
 
 impl FactChange {
     /// A fact that may have changed on some path.
     pub(super) fn perhaps(fluent: Fluent, key: FactKey) -> Self {
-        Self { fluent, key, truth: true, sure: Certainty::Sometimes }
+        Self { fluent, key, truth: true, sure: Certainty::Sometimes, nameless: None }
     }
 
     /// A fact of which nothing is known any more.
@@ -80,12 +82,13 @@ impl Prover<'_> {
         let Some(sure) = sure else { return };
         let fluent = effect.fact.fluent;
         match self.key(&effect.fact, frame) {
-            Some(key) => changes.push(FactChange { fluent, key, truth: effect.value, sure }),
+            Some(key) => changes.push(FactChange { fluent, key, truth: effect.value, sure, nameless: None }),
             None => changes.push(FactChange {
                 fluent,
                 key: FactKey::ALL,
                 truth: effect.value,
                 sure: Certainty::Misread,
+                nameless: None,
             }),
         }
     }
@@ -114,7 +117,16 @@ impl Prover<'_> {
             self.change(effect, CallFrame { each: Some(*candidate), ..frame }, changes);
         }
         changes.iter_mut().skip(first).for_each(|change| change.sure = change.sure.max(Certainty::Unknown));
-        let Some(sure) = rest else { return };
+        let Some(sure) = rest else {
+            // Those that have a name are all among the candidates.
+            let holds = |when: &Condition| {
+                certainty(self.evaluate(when, CallFrame { each: Some(NOBODY), ..frame })).is_some()
+            };
+            if effect.when.as_ref().is_some_and(holds) {
+                self.change_nameless(effect, frame, changes);
+            }
+            return;
+        };
         if self.covers(effect, kind) {
             // Without an argument that tells them apart, it happens if there is one of them.
             let is_about = effect.fact.args.contains(&Some(Term::Each));
@@ -122,10 +134,12 @@ impl Prover<'_> {
             let sure = if is_one { sure } else { sure.max(Certainty::Unknown) };
             // Those of which nothing is known by name: one pattern for all of them.
             if let Some(key) = self.key(&effect.fact, CallFrame { each: None, ..frame }) {
-                changes.push(FactChange { fluent: effect.fact.fluent, key, truth: effect.value, sure });
+                let fluent = effect.fact.fluent;
+                changes.push(FactChange { fluent, key, truth: effect.value, sure, nameless: None });
             }
             return;
         }
+        self.change_nameless(effect, frame, changes);
         // The fluent is also about entities of other kinds, which a pattern would take in: each by its name.
         let named = self.of_kind(kind, usize::MAX).into_iter();
         for entity in named.filter(|entity| known.binary_search(entity).is_err()) {
@@ -142,6 +156,18 @@ impl Prover<'_> {
                 changes.iter_mut().skip(first).for_each(|change| change.sure = Certainty::Unknown);
             }
         }
+    }
+
+    /// Adds the change of the entities that have no name yet: nobody knows if there are any.
+    fn change_nameless(&self, effect: &EffectDef, frame: CallFrame<'_>, changes: &mut Vec<FactChange>) {
+        let fluent = effect.fact.fluent;
+        let Some(key) = self.key(&effect.fact, CallFrame { each: None, ..frame }) else { return };
+        let mut open = (0..effect.fact.args.len()).filter(|index| key.arg(*index) == ANY);
+        let is_each = |place: &usize| effect.fact.args.get(*place) == Some(&Some(Term::Each));
+        // Else the facts of a name cannot be told from the others: nothing is known of any.
+        let nameless = open.next().filter(is_each).filter(|_| open.next().is_none());
+        let nameless = nameless.filter(|_| !self.has_symbol(fluent, key));
+        changes.push(FactChange { fluent, key, truth: effect.value, sure: Certainty::Unknown, nameless });
     }
 
     /// Returns whether one pattern covers what an effect is about, and nothing else: its `each` stands in one
@@ -221,8 +247,12 @@ impl Prover<'_> {
 
     /// Writes a fact, and weakens the facts that may be the same.
     fn write(&mut self, change: &FactChange, cause: Cause, new: impl Fn(TruthSet) -> TruthSet) {
-        let FactChange { fluent, key, sure, .. } = *change;
-        if sure == Certainty::Always {
+        let FactChange { fluent, key, sure, nameless, .. } = *change;
+        if let Some(place) = nameless {
+            self.keep_names(fluent, key, place);
+            let is_nameless = |part: FactKey| part.arg(place) == ANY;
+            self.state.facts.change(fluent, key, |part, old| if is_nameless(part) { new(old) } else { old });
+        } else if sure == Certainty::Always {
             self.state.facts.set(fluent, key, new(TruthSet::default()));
         } else if self.symbols.is_empty() || key.is_pattern() {
             self.state.facts.change(fluent, key, |_, old| new(old));
@@ -248,6 +278,22 @@ impl Prover<'_> {
         }
     }
 
+    /// Writes what is known of each entity with a name that a pattern covers as an entry of its own.
+    fn keep_names(&mut self, fluent: Fluent, pattern: FactKey, place: usize) {
+        let param = self.library.fluent(fluent).and_then(|def| def.params.get(place));
+        let Some(kind) = param.and_then(|(_, ty)| ty.kind()) else { return };
+        let symbols = self.symbols.iter().map(|(entity, _)| entity);
+        let named: Vec<Entity> = self.of_kind(kind, usize::MAX).into_iter().chain(symbols).collect();
+        effort::spend(effort::WRITE * named.len());
+        for entity in named {
+            let key = pattern.with(place, entity.0);
+            if self.state.facts.entry(fluent, key).is_none() {
+                let known = self.read(fluent, key);
+                self.state.facts.set(fluent, key, known);
+            }
+        }
+    }
+
     /// Writes what an observation has shown of a fact. From then on what happens to an entity is felt by
     /// what is known of a symbol that it may be. What a branch beside this one may change is not learnt: it
     /// may be otherwise when the next step begins.
@@ -265,7 +311,7 @@ impl Prover<'_> {
     /// facts that may be the same.
     pub(super) fn see_change(&mut self, fluent: Fluent, key: FactKey, value: TruthSet, cause: Cause) {
         if !self.is_disturbed(fluent, key) {
-            let change = FactChange { fluent, key, truth: true, sure: Certainty::Always };
+            let change = FactChange { fluent, key, truth: true, sure: Certainty::Always, nameless: None };
             self.write(&change, cause, |_| value);
         }
     }

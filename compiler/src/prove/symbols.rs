@@ -5,7 +5,7 @@ use rustc_hash::FxHashMap;
 
 use crate::declare::Library;
 use crate::environment::Environment;
-use crate::ir::{Base, Binding, Entity, Kind, Program, StepKind, Term, Ty};
+use crate::ir::{Base, Binding, Entity, Kind, NOBODY, Program, StepKind, Term, Ty};
 
 /// Entities and symbols of the bindings.
 #[derive(Clone, Debug, Default)]
@@ -107,9 +107,9 @@ impl Symbols {
 
     /// Adds the symbol of the binding that is added next.
     fn add(&mut self, kind: Kind, may_be: Option<Vec<Entity>>) -> Option<Entity> {
-        // The last number stands for `any`.
-        let index =
-            u16::try_from(self.symbols.len()).ok()?.checked_add(self.first).filter(|id| *id < u16::MAX)?;
+        // The last numbers stand for `any` and for nobody.
+        let index = u16::try_from(self.symbols.len()).ok()?.checked_add(self.first);
+        let index = index.filter(|id| *id < NOBODY.0)?;
         self.symbols.push(Symbol { kind, may_be, binding: self.bindings.len() });
         Some(Entity(index))
     }

@@ -65,6 +65,20 @@ fn quantified_effect_on_nobody_knows_whom_is_not_lost() {
 }
 
 #[test]
+fn quantified_effect_also_concerns_things_that_nobody_has_named() {
+    let spoil = "action spoil()\n    makes not f(a) for each o: Object when not f(o) and ready()\n\
+                 action spoil_all()\n    makes not ok(o) for each o: Object when ready() and not f(o)\n";
+    assert_eq!(verdict("use", spoil, "make(a) spoil() use(a)"), Verdict::Deferred);
+    // The things that have a name keep what is known of them.
+    assert_eq!(verdict("needs_ok", spoil, "mark(box) spoil_all() needs_ok(box)"), Verdict::Proven);
+    assert_eq!(verdict("needs_ok", spoil, "make(a) mark(a) spoil_all() needs_ok(a)"), Verdict::Proven);
+    let found = "make(a) let m = look_o(\"x\") mark(m) spoil_all() needs_ok(m)";
+    assert_eq!(verdict("needs_ok", spoil, found), Verdict::Deferred);
+    let closed = format!("{spoil}closed world\n");
+    assert_eq!(verdict("use", &closed, "make(a) spoil() use(a)"), Verdict::Proven);
+}
+
+#[test]
 fn quantified_over_things_without_a_declaration() {
     let nobody = "kind Part: Entity\nfluent held_part(p: Part)\nperception look_p(what: Text) -> Part\n\
                   action grab(p: Part)\n    makes held_part(p)\naction wash_all()\n    \

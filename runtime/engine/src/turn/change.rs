@@ -174,9 +174,13 @@ impl Turn<'_> {
         let sorting = self.run.beliefs.entities.sorting(&self.plan.graph, kind);
         for index in 0..self.run.beliefs.entities.len() {
             let Some((id, of_kind)) = self.run.beliefs.entities.get(index, &sorting) else { continue };
-            if of_kind != OfKind::No {
-                truth = truth.and(self.need_of(need, Some(Value::Entity(id)), fresh));
-            }
+            let own = match of_kind {
+                OfKind::No => continue,
+                OfKind::Perhaps | OfKind::Surely => self.need_of(need, Some(Value::Entity(id)), fresh),
+            };
+            // Of one that may be of another kind it may not be asked.
+            let is_open = of_kind == OfKind::Perhaps && own == Truth::False;
+            truth = truth.and(if is_open { Truth::Unknown } else { own });
         }
         truth
     }
@@ -383,13 +387,14 @@ impl Contracts<'_> {
         });
         let Some(args) = args.collect::<Option<Vec<_>>>() else { return };
         let Some(fluent) = judge.graph.fluents.get(entry.fact.fluent.index()) else { return };
-        // Some of them may be of another kind, so it is never sure.
+        // Some of them may be of another kind, so it is never sure. What is not about them feels it, too.
+        let rest = entry.fact.args.contains(&FactArg::Term(Term::Each));
         changes.push(BeliefChange {
             fluent: fluent.name.clone(),
             args,
             value: entry.value,
             sure: false,
-            rest: true,
+            rest,
         });
     }
 
