@@ -5,6 +5,8 @@
 
 use std::fmt;
 
+use super::make::LIBRARY;
+
 /// Kind of the standard library.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Kind {
@@ -16,13 +18,15 @@ pub(super) enum Kind {
     Person,
     /// Kind of the entity `start`.
     Place,
+    /// An enumeration: its cases stand among the entities, and are none.
+    Mode,
 }
 
 impl Kind {
     /// Returns whether each entity of this kind is one of another.
     #[must_use]
     pub(super) fn is(self, other: Self) -> bool {
-        other == Self::Entity || self == other
+        self == other || other == Self::Entity && self != Self::Mode
     }
 }
 
@@ -45,6 +49,8 @@ pub(super) enum Arg {
     Result,
     /// A name of the policy.
     Name(usize),
+    /// The first of a list of the policy.
+    First(usize),
     /// Every entity in an effect, some entity in a condition.
     Any,
 }
@@ -70,6 +76,16 @@ pub(super) enum Condition {
     Kind(usize, &'static str),
     /// A list of the policy is empty; as with [`Self::Kind`].
     Empty(usize),
+    /// A length compares with a number; as with [`Self::Kind`].
+    Length(Length, &'static str, u32),
+}
+
+/// Length of a list of the policy.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Length {
+    Of(usize),
+    /// Of a list whose length has a name.
+    Named(usize),
 }
 
 /// A need, perhaps of each entity of a kind, perhaps under a condition.
@@ -102,8 +118,10 @@ pub(super) struct Action {
     pub(super) uses: Option<&'static str>,
     /// True if what it makes may be otherwise once a later step uses the base.
     pub(super) is_stale_by_base: bool,
-    /// True for a perception that finds an object.
-    pub(super) finds: bool,
+    /// Entities: what it makes may be otherwise once a later step moves one of them.
+    pub(super) is_stale_by: Vec<Arg>,
+    /// Kind of the entity or the case that a perception finds.
+    pub(super) finds: Option<Kind>,
     /// True for a perception that finds a list of objects instead.
     pub(super) finds_all: bool,
 }
@@ -111,7 +129,7 @@ pub(super) struct Action {
 /// Entities, fluents, actions and a start.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Domain {
-    /// The declared ones first, then those of the standard library.
+    /// The declared ones first, then those of which the domain says nothing, then those of the standard library.
     pub(super) entities: Vec<(String, Kind)>,
     /// Number of entities that the domain declares.
     pub(super) declared: usize,
@@ -152,6 +170,18 @@ impl Domain {
     /// The entities of a kind.
     pub(super) fn of_kind(&self, kind: Kind) -> impl Iterator<Item = usize> + '_ {
         (0..).zip(&self.entities).filter(move |(_, (_, own))| own.is(kind)).map(|(index, _)| index)
+    }
+
+    /// Returns whether the domain declares anything of a kind.
+    #[must_use]
+    pub(super) fn has(&self, kind: Kind) -> bool {
+        self.of_kind(kind).any(|one| one < self.declared)
+    }
+
+    /// Returns whether there are entities of which the domain says nothing.
+    #[must_use]
+    pub(super) fn has_undeclared(&self) -> bool {
+        self.declared + LIBRARY.len() < self.entities.len()
     }
 
     /// Index of an entity.
@@ -224,15 +254,16 @@ impl Domain {
             Condition::Not(inner) => !self.holds(inner, frame, state),
             Condition::All(parts) => parts.iter().all(|part| self.holds(part, frame, state)),
             Condition::AnyOf(parts) => parts.iter().any(|part| self.holds(part, frame, state)),
-            Condition::Kind(..) | Condition::Empty(_) => false,
+            Condition::Kind(..) | Condition::Empty(_) | Condition::Length(..) => false,
         }
     }
 
-    /// Truth of a need in a state.
+    /// Truth of a need in a state, for all but the entities of which nobody has heard.
     #[must_use]
-    pub(super) fn meets(&self, need: &Need, frame: &Frame, state: &State) -> bool {
-        let mut frames = self.frames(need.each, frame).into_iter();
-        frames.all(|frame| {
+    pub(super) fn meets(&self, need: &Need, frame: &Frame, (state, unheard): (&State, &[usize])) -> bool {
+        let frames = self.frames(need.each, frame).into_iter();
+        let mut heard = frames.filter(|frame| frame.each.is_none_or(|each| !unheard.contains(&each)));
+        heard.all(|frame| {
             need.when.as_ref().is_some_and(|when| !self.holds(when, &frame, state))
                 || self.holds(&need.condition, &frame, state)
         })
@@ -253,7 +284,7 @@ impl Domain {
     fn mentioned(&self, condition: &Condition, frame: &Frame, cells: &mut Vec<usize>) {
         match condition {
             Condition::Is(atom) => cells.extend(self.cells_in(atom, frame)),
-            Condition::Same(..) | Condition::Kind(..) | Condition::Empty(_) => {}
+            Condition::Same(..) | Condition::Kind(..) | Condition::Empty(_) | Condition::Length(..) => {}
             Condition::Not(inner) => self.mentioned(inner, frame, cells),
             Condition::All(parts) | Condition::AnyOf(parts) => {
                 parts.iter().for_each(|part| self.mentioned(part, frame, cells));
@@ -279,6 +310,19 @@ impl Domain {
         cells
     }
 
+    /// Entities that changes move: the first of what they change, where it is named.
+    #[must_use]
+    pub(super) fn moved(&self, changes: &[Change], frame: &Frame, state: &State) -> Vec<usize> {
+        let mut moved = Vec::new();
+        for change in changes {
+            let frames = self.frames(change.each, frame).into_iter();
+            let begun =
+                frames.filter(|frame| change.when.as_ref().is_none_or(|when| self.holds(when, frame, state)));
+            moved.extend(begun.filter_map(|frame| frame.value(*change.atom.args.first()?)));
+        }
+        moved
+    }
+
     /// The frames of a clause: one for each entity of its kind.
     fn frames(&self, each: Option<Kind>, frame: &Frame) -> Vec<Frame> {
         match each {
@@ -301,18 +345,18 @@ fn is_about_result(condition: &Condition) -> bool {
         Condition::Same(one, other) => [one, other].contains(&&Arg::Result),
         Condition::Not(inner) => is_about_result(inner),
         Condition::All(parts) | Condition::AnyOf(parts) => parts.iter().any(is_about_result),
-        Condition::Kind(..) | Condition::Empty(_) => false,
+        Condition::Kind(..) | Condition::Empty(_) | Condition::Length(..) => false,
     }
 }
 
 impl Frame {
-    fn value(&self, arg: Arg) -> Option<usize> {
+    pub(super) fn value(&self, arg: Arg) -> Option<usize> {
         match arg {
             Arg::Entity(one) => Some(one),
             Arg::Param(index) => self.params.get(index).copied(),
             Arg::Each => self.each,
             Arg::Result => self.result,
-            Arg::Name(_) | Arg::Any => None,
+            Arg::Name(_) | Arg::First(_) | Arg::Any => None,
         }
     }
 }

@@ -11,6 +11,9 @@ use super::contract::{Action, Arg, Atom, Change, Condition, Domain, Kind, Need};
 pub(super) const FAILURES: [&str; 2] = ["slipped", "blocked"];
 /// Resources of actions; one contains the other or they are apart, as the standard library says.
 const RESOURCES: [&str; 3] = [BASE, "voice", "camera"];
+/// Entities of the standard library.
+pub(super) const LIBRARY: [(&str, Kind); 3] =
+    [("robot", Kind::Entity), ("user", Kind::Person), ("start", Kind::Place)];
 /// The resource that moves the robot.
 pub(super) const BASE: &str = "base";
 
@@ -34,12 +37,21 @@ pub(super) fn domain(dice: &mut SplitMix64) -> Domain {
     for index in 0..dice.random_range(0..2) {
         domain.entities.push((format!("c{index}"), Kind::Container));
     }
+    let modes = if chance(dice, 40) { 2 + dice.random_range(0..2) } else { 0 };
+    domain.entities.extend((0..modes).map(|index| (format!("s{index}"), Kind::Mode)));
     domain.declared = domain.entities.len();
-    for (name, kind) in [("robot", Kind::Entity), ("user", Kind::Person), ("start", Kind::Place)] {
+    if chance(dice, 30) {
+        domain.entities.push(("u0".to_owned(), Kind::Object));
+    }
+    for (name, kind) in LIBRARY {
         domain.entities.push((name.to_owned(), kind));
     }
     domain.fluents = vec![vec![], vec![Kind::Object], vec![Kind::Object], vec![Kind::Entity]];
     domain.fluents.push(vec![Kind::Object, if chance(dice, 50) { Kind::Object } else { Kind::Entity }]);
+    if modes > 0 {
+        let with = if chance(dice, 50) { vec![Kind::Mode] } else { vec![Kind::Object, Kind::Mode] };
+        domain.fluents.push(with);
+    }
     domain.names = (0..domain.fluents.len()).map(|index| format!("f{index}")).collect();
     if let Some(name) = domain.names.get_mut(2).filter(|_| chance(dice, 50)) {
         // What is held may drop.
@@ -175,7 +187,8 @@ fn action(dice: &mut SplitMix64, domain: &Domain, finds: bool) -> Action {
     let mut terms = entities(domain);
     let mut params = Vec::new();
     if !finds && chance(dice, 75) {
-        let kinds = [Kind::Object, Kind::Object, Kind::Entity];
+        let mut kinds = vec![Kind::Object, Kind::Object, Kind::Entity];
+        kinds.extend(domain.has(Kind::Mode).then_some(Kind::Mode));
         params.extend((0..1 + usize::from(chance(dice, 20))).filter_map(|_| one_of(dice, &kinds)));
     }
     for (index, kind) in params.iter().enumerate() {
@@ -187,16 +200,23 @@ fn action(dice: &mut SplitMix64, domain: &Domain, finds: bool) -> Action {
     });
     let needs = needs.collect();
     let finds_all = finds && chance(dice, 30);
-    let finds = finds && !finds_all;
-    if finds {
-        terms = terms.with(Arg::Result, Kind::Object).with(Arg::Result, Kind::Object);
+    let mut kinds = vec![Kind::Object, Kind::Object, Kind::Object, Kind::Entity];
+    kinds.extend([Kind::Mode, Kind::Container].into_iter().filter(|kind| domain.has(*kind)));
+    let finds = one_of(dice, &kinds).filter(|_| finds && !finds_all);
+    if let Some(kind) = finds {
+        terms = terms.with(Arg::Result, kind).with(Arg::Result, kind);
     }
-    let least = usize::from(!finds && !finds_all);
-    let makes = (0..least + dice.random_range(0..3)).map(|_| change(dice, domain, &terms)).collect();
+    let least = usize::from(finds.is_none() && !finds_all);
+    let makes: Vec<Change> =
+        (0..least + dice.random_range(0..3)).map(|_| change(dice, domain, &terms)).collect();
     let unsettles = (0..usize::from(chance(dice, 20))).map(|_| change(dice, domain, &terms)).collect();
     let fails = FAILURES.into_iter().filter(|_| chance(dice, 40)).collect();
-    let uses = chance(dice, 90).then(|| one_of(dice, &RESOURCES)).flatten();
-    let is_stale_by_base = (finds || finds_all) && chance(dice, 50);
+    let uses = chance(dice, 75).then(|| one_of(dice, &RESOURCES)).flatten();
+    let is_stale_by_base = (finds.is_some() || finds_all) && chance(dice, 50);
+    let is_own = |arg: &Arg| matches!(arg, Arg::Param(_) | Arg::Result);
+    let whose = terms.known.iter().filter(|(arg, kind)| is_own(arg) && kind.is(Kind::Entity));
+    let whose: Vec<Arg> = whose.map(|(arg, _)| *arg).collect();
+    let is_stale_by = one_of(dice, &whose).filter(|_| chance(dice, 15)).into_iter().collect();
     Action {
         params,
         needs,
@@ -207,6 +227,7 @@ fn action(dice: &mut SplitMix64, domain: &Domain, finds: bool) -> Action {
         finds,
         finds_all,
         is_stale_by_base,
+        is_stale_by,
         ..Action::default()
     }
 }

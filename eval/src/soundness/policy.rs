@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::contract::{Action, Arg, Atom, Change, Condition, Domain, Kind, Need};
+use super::contract::{Action, Arg, Atom, Change, Condition, Domain, Kind, Length, Need};
 use super::make::BASE;
 
 /// A step.
@@ -28,7 +28,17 @@ pub(super) enum Step {
     Say(usize),
     /// Choice of a person among entities.
     Choose {
-        among: Vec<usize>,
+        among: Vec<Arg>,
+        name: usize,
+    },
+    /// A list with its parts, of which each has one kind.
+    List {
+        of: Vec<Arg>,
+        name: usize,
+    },
+    /// A name for the length of a list.
+    Count {
+        list: usize,
         name: usize,
     },
     /// The first of a list.
@@ -75,10 +85,10 @@ pub(super) struct Handler {
     pub(super) steps: Vec<Step>,
 }
 
-/// Objects that a loop goes over.
+/// Things of one kind that a loop goes over.
 #[derive(Clone, Debug)]
 pub(super) enum Among {
-    Entities(Vec<usize>),
+    Written(Vec<Arg>),
     /// A list that a perception has found.
     List(usize),
 }
@@ -128,7 +138,8 @@ impl Step {
     pub(super) fn blocks(&self) -> Vec<&Vec<Self>> {
         match self {
             Self::Call { .. } | Self::Choose { .. } | Self::First { .. } | Self::Policy(..) => Vec::new(),
-            Self::Let { .. } | Self::Say(_) | Self::Give(_) => Vec::new(),
+            Self::Let { .. } | Self::List { .. } | Self::Count { .. } => Vec::new(),
+            Self::Say(_) | Self::Give(_) => Vec::new(),
             Self::Wait(_) | Self::Delay | Self::End(_) => Vec::new(),
             Self::If(_, one, other) | Self::Finally(one, other) => vec![one, other],
             Self::Try(body, handlers) => {
@@ -152,7 +163,8 @@ impl Step {
     pub(super) fn blocks_mut(&mut self) -> Vec<&mut Vec<Self>> {
         match self {
             Self::Call { .. } | Self::Choose { .. } | Self::First { .. } | Self::Policy(..) => Vec::new(),
-            Self::Let { .. } | Self::Say(_) | Self::Give(_) => Vec::new(),
+            Self::Let { .. } | Self::List { .. } | Self::Count { .. } => Vec::new(),
+            Self::Say(_) | Self::Give(_) => Vec::new(),
             Self::Wait(_) | Self::Delay | Self::End(_) => Vec::new(),
             Self::If(_, one, other) | Self::Finally(one, other) => vec![one, other],
             Self::Try(body, handlers) => {
@@ -192,7 +204,13 @@ pub(super) fn domain_text(domain: &Domain, with_needs: bool) -> String {
     if domain.is_closed {
         writer.out.push_str("closed world\n");
     }
-    for (name, kind) in domain.entities.iter().take(domain.declared) {
+    let (cases, entities): (Vec<_>, Vec<_>) =
+        domain.entities.iter().take(domain.declared).partition(|(_, kind)| *kind == Kind::Mode);
+    if !cases.is_empty() {
+        let cases: Vec<&str> = cases.into_iter().map(|(name, _)| name.as_str()).collect();
+        let _ = writeln!(writer.out, "enum {} {{ {} }}", Kind::Mode, cases.join(", "));
+    }
+    for (name, kind) in entities {
         let _ = writeln!(writer.out, "entity {name}: {kind}");
     }
     for (index, (name, params)) in domain.names.iter().zip(&domain.fluents).enumerate() {
@@ -243,9 +261,9 @@ impl Writer<'_> {
         let mut params: Vec<String> =
             (0..).zip(&action.params).map(|(at, kind)| format!("x{at}: {kind}")).collect();
         let (what, result) = match (action.finds, action.finds_all) {
-            (true, _) => ("perception", " -> Object"),
-            (_, true) => ("perception", " -> List<Object>"),
-            (false, false) => ("action", ""),
+            (Some(kind), _) => ("perception", format!(" -> {kind}")),
+            (None, true) => ("perception", " -> List<Object>".to_owned()),
+            (None, false) => ("action", String::new()),
         };
         if !result.is_empty() {
             params.insert(0, "what: Text".to_owned());
@@ -262,7 +280,8 @@ impl Writer<'_> {
         }
         clause("makes", action.makes.iter().map(|change| writer.change(change, change.truth)).collect());
         clause("unsettles", action.unsettles.iter().map(|change| writer.change(change, true)).collect());
-        clause("lasts until", action.is_stale_by_base.then(|| BASE.to_owned()).into_iter().collect());
+        let stale = action.is_stale_by_base.then(|| BASE.to_owned()).into_iter();
+        clause("lasts until", stale.chain(action.is_stale_by.iter().map(|arg| writer.arg(*arg))).collect());
         clause("uses", action.uses.iter().map(|&name| name.to_owned()).collect());
         clause("takes", vec!["1 s .. 4 s".to_owned()]);
         clause("fails", action.fails.iter().map(|&name| name.to_owned()).collect());
@@ -292,6 +311,7 @@ impl Writer<'_> {
             Arg::Each => "y".to_owned(),
             Arg::Result => "result".to_owned(),
             Arg::Name(name) => format!("m{name}"),
+            Arg::First(list) => format!("first(l{list})"),
             Arg::Any => "any".to_owned(),
         }
     }
@@ -322,11 +342,13 @@ impl Writer<'_> {
             Condition::AnyOf(some) => parts(some, " or "),
             Condition::Kind(failure, kind) => format!("k{failure}.kind == {kind}"),
             Condition::Empty(list) => format!("is_empty(l{list})"),
+            Condition::Length(Length::Of(list), op, count) => format!("count(l{list}) {op} {count}"),
+            Condition::Length(Length::Named(name), op, count) => format!("n{name} {op} {count}"),
         }
     }
 
-    fn names(&self, among: &[usize]) -> String {
-        among.iter().map(|one| self.arg(Arg::Entity(*one))).collect::<Vec<_>>().join(", ")
+    fn names(&self, among: &[Arg]) -> String {
+        among.iter().map(|one| self.arg(*one)).collect::<Vec<_>>().join(", ")
     }
 
     fn block(&mut self, steps: &[Step], depth: usize) {
@@ -344,7 +366,7 @@ impl Writer<'_> {
             Step::Call { action, args, name, retry, manner, is_bounded } => {
                 let Some(action) = self.domain.actions.get(*action) else { return };
                 let mut args: Vec<String> = args.iter().map(|arg| self.arg(*arg)).collect();
-                if action.finds || action.finds_all {
+                if action.finds.is_some() || action.finds_all {
                     args.insert(0, "\"thing\"".to_owned());
                 }
                 let sort = if action.finds_all { 'l' } else { 'm' };
@@ -360,6 +382,8 @@ impl Writer<'_> {
                 let text = format!("let m{name} = choose(\"which?\", [{}])", self.names(among));
                 self.line(depth, &text);
             }
+            Step::List { of, name } => self.line(depth, &format!("let l{name} = [{}]", self.names(of))),
+            Step::Count { list, name } => self.line(depth, &format!("let n{name} = count(l{list})")),
             Step::First { list, name } => self.line(depth, &format!("let m{name} = first(l{list})")),
             Step::If(test, then, otherwise) => {
                 self.nested(depth, &format!("if {}", self.condition(test)), then);
@@ -394,7 +418,7 @@ impl Writer<'_> {
             }
             Step::Each { among, name, body } => {
                 let among = match among {
-                    Among::Entities(among) => format!("[{}]", self.names(among)),
+                    Among::Written(among) => format!("[{}]", self.names(among)),
                     Among::List(list) => format!("l{list}"),
                 };
                 let text = format!("each m{name} in {among} at most 3");

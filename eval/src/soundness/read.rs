@@ -5,7 +5,7 @@ use motet_syntax::ast::{
 };
 
 use super::contract::{Action, Arg, Atom, Change, Condition, Domain, Kind, Need};
-use super::make::{BASE, FAILURES};
+use super::make::{BASE, FAILURES, LIBRARY};
 
 /// Names that a contract may use.
 #[derive(Clone, Copy)]
@@ -44,7 +44,7 @@ pub(super) fn domain(file: &File) -> Result<Domain, String> {
         }
     }
     domain.declared = domain.entities.len();
-    for (name, kind) in [("robot", Kind::Entity), ("user", Kind::Person), ("start", Kind::Place)] {
+    for (name, kind) in LIBRARY {
         domain.entities.push((name.to_owned(), kind));
     }
     for item in &file.items {
@@ -96,7 +96,8 @@ fn action(decl: &PrimitiveDecl, domain: &Domain) -> Result<Action, String> {
     let entities = decl.params.iter().filter_map(|param| Some((&*param.name.text, kind(&param.ty).ok()?)));
     let (names, params): (Vec<&str>, Vec<Kind>) = entities.unzip();
     let finds_all = matches!(decl.result, Some(TypeExpr::List(..)));
-    let finds = decl.kind == PrimitiveKind::Perception && decl.result.is_some() && !finds_all;
+    let found = decl.result.as_ref().filter(|_| decl.kind == PrimitiveKind::Perception && !finds_all);
+    let finds = found.map(kind).transpose()?;
     let name = decl.name.text.to_string();
     let mut action = Action { name, params, finds, finds_all, ..Action::default() };
     for clause in &decl.clauses {

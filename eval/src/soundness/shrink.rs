@@ -218,6 +218,9 @@ fn domains(domain: &Domain) -> Vec<Domain> {
         if !action.fails.is_empty() {
             with(index, &|action| action.fails.clear());
         }
+        if !action.is_stale_by.is_empty() {
+            with(index, &|action| action.is_stale_by.clear());
+        }
         if action.uses.is_some() {
             with(index, &|action| action.uses = None);
         }

@@ -3,7 +3,7 @@
 use rand::RngExt as _;
 use rand_xoshiro::SplitMix64;
 
-use super::contract::{Arg, Change, Condition, Domain, Kind};
+use super::contract::{Arg, Change, Condition, Domain, Kind, Length};
 use super::make::{BASE, FAILURES, Terms, chance, condition, entities, one_of};
 use super::policy::{Among, Called, ENDS, Handler, MANNERS, Policy, Reaction, Rule, Step};
 
@@ -14,10 +14,12 @@ const CAUGHT: [&[&str]; 5] =
 /// Names in scope.
 #[derive(Clone, Default)]
 struct Names {
-    /// Names of objects.
-    objects: Vec<usize>,
+    /// Names of entities and cases, with their kinds.
+    things: Vec<(usize, Kind)>,
     /// Names of lists of objects.
     lists: Vec<usize>,
+    /// Names of lengths of lists.
+    lengths: Vec<usize>,
     /// Names of failures.
     failures: Vec<usize>,
 }
@@ -103,7 +105,7 @@ impl Maker<'_> {
     fn called(&mut self) -> Called {
         let (param, gives) = (self.name(), chance(self.dice, 40));
         let depth = if chance(self.dice, 30) { 2 } else { 1 };
-        self.names.objects.push(param);
+        self.names.things.push((param, Kind::Object));
         self.gives = gives;
         let mut body = self.open(2, depth);
         if gives {
@@ -138,7 +140,7 @@ impl Maker<'_> {
 
     fn terms(&self) -> Terms {
         let terms = entities(self.domain);
-        self.names.objects.iter().fold(terms, |terms, name| terms.with(Arg::Name(*name), Kind::Object))
+        self.names.things.iter().fold(terms, |terms, (name, kind)| terms.with(Arg::Name(*name), *kind))
     }
 
     /// A condition that may change by itself.
@@ -159,9 +161,16 @@ impl Maker<'_> {
             40..50 if !self.names.lists.is_empty() => {
                 Condition::Empty(one_of(self.dice, &self.names.lists).unwrap_or_default())
             }
-            50..60 if !self.names.objects.is_empty() => {
-                let name = one_of(self.dice, &self.names.objects).unwrap_or_default();
-                Condition::Same(Arg::Name(name), self.object())
+            50..58 if !self.names.lists.is_empty() => {
+                let of = Length::Of(one_of(self.dice, &self.names.lists).unwrap_or_default());
+                let named = one_of(self.dice, &self.names.lengths).map(Length::Named);
+                let length = named.filter(|_| chance(self.dice, 40)).unwrap_or(of);
+                let op = one_of(self.dice, &["==", "!=", "<", "<=", ">", ">="]).unwrap_or_default();
+                Condition::Length(length, op, self.dice.random_range(0..3))
+            }
+            58..72 if !self.names.things.is_empty() => {
+                let (name, kind) = one_of(self.dice, &self.names.things).unwrap_or((0, Kind::Object));
+                Condition::Same(Arg::Name(name), self.of_kind(kind))
             }
             _ => return self.watched(),
         };
@@ -174,32 +183,44 @@ impl Maker<'_> {
         one_of(self.dice, ends).unwrap_or_default()
     }
 
-    fn objects(&mut self) -> Vec<usize> {
-        let all: Vec<usize> =
-            self.domain.of_kind(Kind::Object).filter(|one| *one < self.domain.declared).collect();
-        let some: Vec<usize> = all.iter().copied().filter(|_| chance(self.dice, 60)).collect();
+    /// Some objects that the domain declares, and perhaps names.
+    fn objects(&mut self) -> Vec<Arg> {
+        let terms = if chance(self.dice, 30) { self.terms() } else { entities(self.domain) };
+        let mut all = terms.of_kind(Kind::Object);
+        all.dedup();
+        let some: Vec<Arg> = all.iter().copied().filter(|_| chance(self.dice, 60)).collect();
         if some.is_empty() { all } else { some }
+    }
+
+    /// An entity, a case or a name, of a kind.
+    fn of_kind(&mut self, kind: Kind) -> Arg {
+        if kind == Kind::Object && chance(self.dice, 15) && !self.names.lists.is_empty() {
+            return Arg::First(one_of(self.dice, &self.names.lists).unwrap_or_default());
+        }
+        one_of(self.dice, &self.terms().of_kind(kind)).unwrap_or(Arg::Entity(0))
     }
 
     /// An entity or a name, of an object.
     fn object(&mut self) -> Arg {
-        let objects = self.terms().of_kind(Kind::Object);
-        one_of(self.dice, &objects).unwrap_or(Arg::Entity(0))
+        self.of_kind(Kind::Object)
     }
 
     fn call(&mut self) -> Step {
         let action = self.dice.random_range(0..self.domain.actions.len());
         let Some(def) = self.domain.actions.get(action) else { return Step::Delay };
-        let name = ((def.finds || def.finds_all) && chance(self.dice, 85)).then(|| self.name());
+        let is_found = def.finds.is_some() || def.finds_all;
+        let name = (is_found && chance(self.dice, 85)).then(|| self.name());
         let step = self.call_of(action, name);
-        (if def.finds_all { &mut self.names.lists } else { &mut self.names.objects }).extend(name);
+        match def.finds {
+            Some(kind) => self.names.things.extend(name.map(|name| (name, kind))),
+            None => self.names.lists.extend(name),
+        }
         step
     }
 
     fn call_of(&mut self, action: usize, name: Option<usize>) -> Step {
         let Some(def) = self.domain.actions.get(action) else { return Step::Delay };
-        let terms = self.terms();
-        let args = def.params.iter().filter_map(|kind| one_of(self.dice, &terms.of_kind(*kind))).collect();
+        let args = def.params.iter().map(|kind| self.of_kind(*kind)).collect();
         let retry = if chance(self.dice, 12) { 1 + self.dice.random_range(0..2) } else { 0 };
         // Of the resources only this one moves the robot.
         let moves = def.uses == Some(BASE) && chance(self.dice, 15);
@@ -209,21 +230,23 @@ impl Maker<'_> {
 
     /// A step that gives a name to an object.
     fn bind(&mut self, name: usize) -> Step {
-        let finders = (0..).zip(&self.domain.actions).filter(|(_, action)| action.finds);
+        let finders =
+            (0..).zip(&self.domain.actions).filter(|(_, action)| action.finds == Some(Kind::Object));
         let finders: Vec<usize> = finders.map(|(index, _)| index).collect();
         match one_of(self.dice, &finders) {
             Some(finder) if chance(self.dice, 60) => self.call_of(finder, Some(name)),
-            _ => Step::Let { name, value: self.plain() },
+            _ => Step::Let { name, value: self.plain(Kind::Object) },
         }
     }
 
-    /// A name, or an entity of which the kind is `Object` itself.
-    fn plain(&mut self) -> Arg {
+    /// A name, or an entity or a case, of which the kind is this one itself.
+    fn plain(&mut self, kind: Kind) -> Arg {
         let is_plain = |arg: &Arg| match arg {
-            Arg::Entity(one) => self.domain.entities.get(*one).is_some_and(|(_, kind)| *kind == Kind::Object),
+            Arg::Entity(one) => self.domain.entities.get(*one).is_some_and(|(_, own)| *own == kind),
+            Arg::Name(name) => self.names.things.contains(&(*name, kind)),
             _ => true,
         };
-        let plain: Vec<Arg> = self.terms().of_kind(Kind::Object).into_iter().filter(is_plain).collect();
+        let plain: Vec<Arg> = self.terms().of_kind(kind).into_iter().filter(is_plain).collect();
         one_of(self.dice, &plain).unwrap_or(Arg::Entity(0))
     }
 
@@ -235,7 +258,7 @@ impl Maker<'_> {
             let name = self.name();
             then.push(self.bind(name));
             otherwise.push(self.bind(name));
-            self.names.objects.push(name);
+            self.names.things.push((name, Kind::Object));
         }
         Step::If(test, then, otherwise)
     }
@@ -261,7 +284,7 @@ impl Maker<'_> {
             let name = self.name();
             body.push(self.bind(name));
             handlers.iter_mut().for_each(|handler| handler.steps.push(self.bind(name)));
-            self.names.objects.push(name);
+            self.names.things.push((name, Kind::Object));
         }
         Step::Try(body, handlers)
     }
@@ -286,11 +309,13 @@ impl Maker<'_> {
     fn parallel(&mut self, depth: u32) -> Step {
         let before = self.names.clone();
         let mut after = before.clone();
-        let branches = (0..2).map(|_| {
+        let count = if chance(self.dice, 25) { 3 } else { 2 };
+        let branches = (0..count).map(|_| {
             let branch = self.inner_open(depth.min(2));
             let own = std::mem::replace(&mut self.names, before.clone());
-            after.objects.extend(own.objects.into_iter().skip(before.objects.len()));
+            after.things.extend(own.things.into_iter().skip(before.things.len()));
             after.lists.extend(own.lists.into_iter().skip(before.lists.len()));
+            after.lengths.extend(own.lengths.into_iter().skip(before.lengths.len()));
             branch
         });
         let branches = branches.collect();
@@ -304,12 +329,20 @@ impl Maker<'_> {
             42..44 => {
                 let Some(list) = one_of(self.dice, &self.names.lists) else { return self.call() };
                 let name = self.name();
-                self.names.objects.push(name);
+                if chance(self.dice, 30) {
+                    self.names.lengths.push(name);
+                    return Step::Count { list, name };
+                }
+                self.names.things.push((name, Kind::Object));
                 Step::First { list, name }
             }
             44..48 => {
                 let (among, name) = (self.objects(), self.name());
-                self.names.objects.push(name);
+                if chance(self.dice, 30) {
+                    self.names.lists.push(name);
+                    return Step::List { of: among, name };
+                }
+                self.names.things.push((name, Kind::Object));
                 Step::Choose { among, name }
             }
             48..58 => self.choice(depth),
@@ -331,11 +364,11 @@ impl Maker<'_> {
             }
             81..85 => {
                 let list = one_of(self.dice, &self.names.lists).filter(|_| chance(self.dice, 50));
-                let among = list.map_or_else(|| Among::Entities(self.objects()), Among::List);
+                let among = list.map_or_else(|| Among::Written(self.objects()), Among::List);
                 let name = self.name();
-                self.names.objects.push(name);
+                self.names.things.push((name, Kind::Object));
                 let body = self.inner(depth);
-                self.names.objects.retain(|known| *known != name);
+                self.names.things.retain(|(known, _)| *known != name);
                 Step::Each { among, name, body }
             }
             85..91 => self.monitor(depth),
@@ -351,7 +384,7 @@ impl Maker<'_> {
                 let arg = self.object();
                 let gives = self.called.get(index).copied().unwrap_or_default();
                 let name = (gives && chance(self.dice, 85)).then(|| self.name());
-                self.names.objects.extend(name);
+                self.names.things.extend(name.map(|name| (name, Kind::Object)));
                 Step::Policy(index, arg, name)
             }
             99 if !self.cleans_up => {
@@ -361,8 +394,10 @@ impl Maker<'_> {
                 Step::End(self.end())
             }
             100..103 => {
-                let (value, name) = (self.plain(), self.name());
-                self.names.objects.push(name);
+                let kinds: Vec<Kind> = self.names.things.iter().map(|(_, kind)| *kind).collect();
+                let kind = one_of(self.dice, &kinds).unwrap_or(Kind::Object);
+                let (value, name) = (self.plain(kind), self.name());
+                self.names.things.push((name, kind));
                 Step::Let { name, value }
             }
             _ => self.call(),

@@ -455,7 +455,8 @@ impl Run<'_> {
         let verdicts = self.verdicts(node);
         for (index, need) in action.needs.iter().enumerate() {
             let world = self.world.world();
-            if world.domain().meets(need, &frame, &world.state) {
+            // A quantified need is about those of which somebody has heard.
+            if world.meets(need, &frame) {
                 continue;
             }
             let is_moving = world.is_moving(&world.domain().asked(need, &frame));
@@ -534,10 +535,15 @@ impl Run<'_> {
         if world.is_moving(&world.domain().asked(need, &frame)) {
             return;
         }
-        let holds = world.domain().meets(need, &frame, &world.state);
+        let holds = world.meets(need, &frame);
+        let has_undeclared = world.domain().has_undeclared();
         drop(world);
         let place = || format!("need {} of a call", index + 1);
         if *truth == Truth::Unknown {
+            // Nobody can observe of which kind an entity is that the domain does not declare.
+            if need.each.is_some() && has_undeclared {
+                return;
+            }
             self.note(Mistake::Unseen, place());
         } else if holds {
             self.note(Mistake::Refused, place());

@@ -10,8 +10,8 @@ use motet_stdlib::lang::fluents::HOLDING;
 use rand::RngExt as _;
 use rand_xoshiro::SplitMix64;
 
-use super::contract::{Action, Domain, Frame, Kind, State};
-use super::make::{BASE, chance, one_of};
+use super::contract::{Action, Domain, Frame, Kind, Need, State};
+use super::make::{BASE, LIBRARY, chance, one_of};
 
 /// Behaviour of a world.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -36,16 +36,35 @@ struct Running {
     unfinished: Vec<usize>,
     /// Cells that it makes, if it succeeds.
     makes: Vec<usize>,
-    /// Cells that it perceives for a time.
-    perceives: Vec<usize>,
-    /// True if it uses the base.
-    uses_base: bool,
+    /// Cells that are as it made them only for a time.
+    lasting: Vec<Lasting>,
+    /// What it uses and moves.
+    stirs: Lifetime,
     /// Changes that are still to come, each at its time.
     flips: Vec<(Time, usize, bool)>,
     ends: Time,
     outcome: Outcome,
     /// Time at which it was held.
     held: Option<Time>,
+}
+
+/// Use of the base, and moved entities; a lifetime ends with either.
+#[derive(Clone, Default)]
+struct Lifetime {
+    of_base: bool,
+    of: Vec<usize>,
+}
+
+impl Lifetime {
+    fn meets(&self, other: &Self) -> bool {
+        self.of_base && other.of_base || self.of.iter().any(|one| other.of.contains(one))
+    }
+}
+
+/// A cell that is as it was made until its lifetime ends.
+struct Lasting {
+    cell: usize,
+    lifetime: Lifetime,
 }
 
 /// The world, at a moment.
@@ -59,14 +78,16 @@ pub(super) struct World<'d> {
     veiled: Vec<bool>,
     /// Of a cell that a step has made, all that it made.
     made_with: BTreeMap<usize, Vec<usize>>,
-    /// Cells that were perceived, and are so only until a step uses the base.
-    perceived: Vec<usize>,
+    /// Cells that are as they were made only for a time.
+    lasting: Vec<Lasting>,
     /// True while a test looks at the hands: then something may have dropped.
     pub(super) is_tested: bool,
     running: Vec<Running>,
     /// Cells that a goal has touched whose end the host has not heard of.
     unheard: Vec<(GoalId, Vec<usize>)>,
     watches: Vec<(Query, Answer)>,
+    /// Entities of which the domain says nothing and that no perception has found.
+    unheard_of: Vec<usize>,
     /// Reports, each at its time.
     outbox: VecDeque<(Time, DriverEvent)>,
     holds: bool,
@@ -106,11 +127,12 @@ impl<'d> World<'d> {
             state,
             veiled,
             made_with: BTreeMap::new(),
-            perceived: Vec::new(),
+            lasting: Vec::new(),
             is_tested: false,
             running: Vec::new(),
             unheard: Vec::new(),
             watches: Vec::new(),
+            unheard_of: (domain.declared..domain.entities.len() - LIBRARY.len()).collect(),
             outbox: VecDeque::new(),
             holds,
             answers_at_once: false,
@@ -145,7 +167,7 @@ impl<'d> World<'d> {
     /// The frame of the arguments of a call.
     pub(super) fn frame(&self, args: impl Iterator<Item = Value>) -> Frame {
         let params = args.filter_map(|value| match value {
-            Value::Entity(id) => self.domain.entity(&id),
+            Value::Entity(id) | Value::Case(id) => self.domain.entity(&id),
             _ => None,
         });
         Frame { params: params.collect(), ..Frame::default() }
@@ -164,6 +186,12 @@ impl<'d> World<'d> {
         let running = self.running.iter().map(|goal| &goal.touches);
         let mut touched = running.chain(self.unheard.iter().map(|(_, touches)| touches)).flatten();
         touched.any(|cell| cells.contains(cell))
+    }
+
+    /// Returns whether a need holds, of all of which somebody has heard.
+    #[must_use]
+    pub(super) fn meets(&self, need: &Need, frame: &Frame) -> bool {
+        self.domain.meets(need, frame, (&self.state, &self.unheard_of))
     }
 
     /// Returns whether a fact is never observed.
@@ -225,7 +253,7 @@ impl<'d> World<'d> {
     /// Cells that a query asks for; none where nobody can tell.
     fn asked(&self, query: &Query) -> Option<Vec<usize>> {
         let entity = |value: &Value| match value {
-            Value::Entity(id) => self.domain.entity(id),
+            Value::Entity(id) | Value::Case(id) => self.domain.entity(id),
             _ => None,
         };
         let (fluent, args): (_, Option<Vec<_>>) = match query {
@@ -262,7 +290,7 @@ impl<'d> World<'d> {
     fn observed(&mut self, query: &Query, answer: &Answer) {
         let cells = self.asked(query).unwrap_or_default();
         if *answer == Answer::Truth(false) || (cells.len() == 1 && *answer != Answer::Unknown) {
-            self.perceived.retain(|cell| !cells.contains(cell));
+            self.lasting.retain(|lasting| !cells.contains(&lasting.cell));
         }
     }
 
@@ -333,12 +361,12 @@ impl<'d> World<'d> {
                 }
             }
         }
-        let without = Frame { result: None, ..frame.clone() };
+        let without = &Frame { result: None, ..frame.clone() };
         let [made_without, unsettled_without] =
-            [&action.makes, &action.unsettles].map(|all| self.domain.changed(all, &without, &self.state));
+            [&action.makes, &action.unsettles].map(|all| self.domain.changed(all, without, &self.state));
         let touches: Vec<usize> = made.iter().chain(&unsettled).map(|(cell, _)| *cell).collect();
-        let without = made_without.iter().chain(&unsettled_without).map(|(cell, _)| *cell);
-        let unfinished: Vec<usize> = without.filter(|cell| touches.contains(cell)).collect();
+        let begun = made_without.iter().chain(&unsettled_without).map(|(cell, _)| *cell);
+        let unfinished: Vec<usize> = begun.filter(|cell| touches.contains(cell)).collect();
         let mut flips = Vec::new();
         if self.mood != Mood::Honest && chance(&mut self.dice, 40) {
             // Meanwhile anything may be so of what it changes.
@@ -350,25 +378,36 @@ impl<'d> World<'d> {
         }
         flips.extend(finally.into_iter().map(|(cell, truth)| (ends, cell, truth)));
         let makes: Vec<usize> = made.iter().filter(|_| succeeds).map(|(cell, _)| *cell).collect();
-        let perceives = if action.is_stale_by_base { makes.clone() } else { Vec::new() };
-        let uses_base = action.uses == Some(BASE);
-        Running { id, touches, unfinished, makes, perceives, uses_base, flips, ends, outcome, held: None }
+        let of = action.is_stale_by.iter().filter_map(|arg| frame.value(*arg)).collect();
+        let lifetime = Lifetime { of_base: action.is_stale_by_base, of };
+        let is_lasting = lifetime.of_base || !lifetime.of.is_empty();
+        let lasting = makes.iter().filter(|_| is_lasting);
+        let lasting = lasting.map(|cell| Lasting { cell: *cell, lifetime: lifetime.clone() }).collect();
+        let stirs = self.stirs(action, without);
+        Running { id, touches, unfinished, makes, lasting, stirs, flips, ends, outcome, held: None }
+    }
+
+    /// What an action uses and moves.
+    fn stirs(&self, action: &Action, frame: &Frame) -> Lifetime {
+        let is_action = action.finds.is_none() && !action.finds_all;
+        let entries = [&action.makes, &action.unsettles].into_iter().filter(|_| is_action);
+        let of = entries.flat_map(|entries| self.domain.moved(entries, frame, &self.state)).collect();
+        Lifetime { of_base: action.uses == Some(BASE), of }
     }
 
     /// Takes a goal off those that run. Nothing is known any more of what it touched.
     fn stop(&mut self, place: usize) -> Running {
         let goal = self.running.remove(place);
         self.made_with.retain(|cell, _| !goal.touches.contains(cell));
-        self.perceived.retain(|cell| !goal.touches.contains(cell));
-        if goal.uses_base {
-            self.outdate();
-        }
+        self.lasting.retain(|lasting| !goal.touches.contains(&lasting.cell));
+        self.outdate(&goal.stirs);
         goal
     }
 
-    /// Lets anything be so of what was perceived before the base moved.
-    fn outdate(&mut self) {
-        for cell in std::mem::take(&mut self.perceived) {
+    /// Lets anything be so of what lasts only until what stirs now.
+    fn outdate(&mut self, stirs: &Lifetime) {
+        let over = |lasting: &mut Lasting| lasting.lifetime.meets(stirs);
+        for Lasting { cell, .. } in self.lasting.extract_if(.., over).collect::<Vec<_>>() {
             if chance(&mut self.dice, 50) {
                 let truth = chance(&mut self.dice, 50);
                 self.flip(cell, truth);
@@ -451,10 +490,14 @@ impl<'d> World<'d> {
             return self.flip(cell, truth);
         }
         let goal = self.stop(place);
-        self.perceived.extend(goal.perceives);
-        if self.running.iter().any(|other| other.uses_base) {
-            self.outdate();
+        if let Outcome::Success(Some(found)) = &goal.outcome {
+            let found = if let Value::List(items) = found { items } else { std::slice::from_ref(found) };
+            let found = self.frame(found.iter().cloned()).params;
+            self.unheard_of.retain(|one| !found.contains(one));
         }
+        self.lasting.extend(goal.lasting);
+        let beside: Vec<Lifetime> = self.running.iter().map(|other| other.stirs.clone()).collect();
+        beside.iter().for_each(|stirs| self.outdate(stirs));
         self.made_with.extend(goal.makes.iter().map(|cell| (*cell, goal.makes.clone())));
         self.unheard.push((goal.id, goal.touches));
         self.say(now, DriverEvent::Ended { goal: goal.id, outcome: goal.outcome });
@@ -466,16 +509,20 @@ impl<'d> World<'d> {
             let kind = one_of(&mut self.dice, &action.fails).unwrap_or("failed");
             return Outcome::Failure(kind.into());
         }
-        let objects: Vec<usize> = self.domain.of_kind(Kind::Object).collect();
+        let choices: Vec<usize> = self.domain.of_kind(action.finds.unwrap_or(Kind::Object)).collect();
         let domain = self.domain;
-        let value =
-            |one: usize| domain.entities.get(one).map(|(name, _)| Value::Entity(name.as_str().into()));
+        let value = |one: usize| {
+            domain.entities.get(one).map(|(name, kind)| match kind {
+                Kind::Mode => Value::Case(name.as_str().into()),
+                _ => Value::Entity(name.as_str().into()),
+            })
+        };
         if action.finds_all {
             let count = self.dice.random_range(0..3);
-            let found = (0..count).filter_map(|_| one_of(&mut self.dice, &objects).and_then(value));
+            let found = (0..count).filter_map(|_| one_of(&mut self.dice, &choices).and_then(value));
             return Outcome::Success(Some(Value::List(found.collect())));
         }
-        frame.result = one_of(&mut self.dice, &objects).filter(|_| action.finds);
+        frame.result = one_of(&mut self.dice, &choices).filter(|_| action.finds.is_some());
         Outcome::Success(frame.result.and_then(value))
     }
 }
@@ -498,14 +545,14 @@ impl Driver for World<'_> {
             self.say(now, DriverEvent::Acknowledged { goal });
             let ends = now.after(Time::from_secs(0.5));
             let outcome = Outcome::Success(chosen);
-            let [touches, unfinished, makes, perceives] = [const { Vec::new() }; 4];
+            let [touches, unfinished, makes] = [const { Vec::new() }; 3];
             self.running.push(Running {
                 id: goal,
                 touches,
                 unfinished,
                 makes,
-                perceives,
-                uses_base: false,
+                lasting: Vec::new(),
+                stirs: Lifetime::default(),
                 flips: Vec::new(),
                 ends,
                 outcome,
@@ -517,11 +564,10 @@ impl Driver for World<'_> {
             return self.say(now, DriverEvent::Refused { goal, failure: "blocked".into() });
         }
         self.say(now, DriverEvent::Acknowledged { goal });
-        if action.uses == Some(BASE) {
-            self.outdate();
-        }
+        // The conditions of effects are those before the step.
         let outcome = self.outcome(action, &mut frame);
         let mut running = self.plan(goal, action, &frame, outcome);
+        self.outdate(&running.stirs);
         if self.mood != Mood::Honest && chance(&mut self.dice, 4) {
             running.ends = Time::NEVER;
             let until = now.after(Time::from_secs(3.0));
