@@ -17,8 +17,8 @@ pub(crate) struct Volatile {
     pub(crate) value: TruthSet,
     /// Span of the monitor's condition; `None` for a branch.
     pub(crate) when: Option<Span>,
-    /// True if only names that may be about the fact feel it: a monitor waits for the world to restore the fact
-    /// itself.
+    /// True if only names that may be about the fact feel it: a monitor waits for the world to restore the
+    /// fact itself.
     pub(crate) restored: bool,
 }
 
@@ -112,8 +112,8 @@ impl Prover<'_> {
         !is_told && self.is_name(row, (fluent, key)) && self.may_be_same(params, row.key, key)
     }
 
-    /// Returns whether a fact or a row is about a name that may be what the other is about. Else the fact has a
-    /// row of its own, but for those that are restored.
+    /// Returns whether a fact or a row is about a name that may be what the other is about. Else the fact has
+    /// a row of its own, but for those that are restored.
     fn is_name(&self, row: &Volatile, (fluent, key): Atom) -> bool {
         self.has_symbol(fluent, key) || row.restored && self.has_symbol(fluent, row.key)
     }

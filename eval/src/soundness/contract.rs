@@ -129,7 +129,8 @@ pub(super) struct Action {
 /// Entities, fluents, actions and a start.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Domain {
-    /// The declared ones first, then those of which the domain says nothing, then those of the standard library.
+    /// The declared ones first, then those of which the domain says nothing, then those of the standard
+    /// library.
     pub(super) entities: Vec<(String, Kind)>,
     /// Number of entities that the domain declares.
     pub(super) declared: usize,

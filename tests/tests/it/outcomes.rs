@@ -227,8 +227,9 @@ fn outcomes_goal_that_is_seen_to_be_false_fails_the_run() {
 
 #[test]
 fn tests_of_what_cannot_change_agree_however_they_are_written() {
-    let declared = "enum Mode { slow, fast, off }\nfluent ready()\nperception all(what: Text) -> List<Object>\n\
-                    perception which() -> Mode\naction prepare()\n    makes ready()\naction start_it()\n    \
+    let declared = "enum Mode { slow, fast, off }\nfluent ready()\n\
+                    perception all(what: Text) -> List<Object>\nperception which() -> Mode\n\
+                    action prepare()\n    makes ready()\naction start_it()\n    \
                     needs ready()\ninitially not ready()\n";
     for (body, is_right) in [
         ("if n >= 2 { prepare() } if count(xs) >= 2 { start_it() }", true),
