@@ -147,12 +147,12 @@ impl Cause {
     }
 
     /// The cause, if the fact lasts only so long.
-    fn seen(self) -> Option<Self> {
+    pub(crate) fn seen(self) -> Option<Self> {
         (self.0 & Self::SEEN != 0).then_some(self)
     }
 
     /// Cause at a join of paths: the fact lasts no longer than what one of them saw.
-    fn join(self, other: Self) -> Self {
+    pub(crate) fn join(self, other: Self) -> Self {
         match (self.seen(), other.seen()) {
             (Some(one), Some(two)) if one != two => Self::SEEN_BY_SEVERAL,
             (None, Some(seen)) => seen,

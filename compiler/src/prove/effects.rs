@@ -278,6 +278,29 @@ impl Prover<'_> {
         }
     }
 
+    /// What an observation has shown, as the run knows it: what it believes of another name may answer, and
+    /// that may last only for a time.
+    fn as_believed(&self, fluent: Fluent, key: FactKey, mut value: TruthSet) -> TruthSet {
+        if self.state.lasting.is_empty()
+            || self.symbols.is_empty()
+            || !self.library.perceived.contains(&fluent)
+        {
+            return value;
+        }
+        let params = self.library.fluent(fluent).map_or(&[][..], |def| &def.params);
+        self.state.facts.written_parts(fluent, |other| {
+            if other != key && self.may_be_same(params, key, other) {
+                let TruthSet { yes, no, .. } = self.state.facts.get(fluent, other);
+                for (own, believed) in [(&mut value.yes, yes), (&mut value.no, no)] {
+                    if let Some(seen) = believed.seen().filter(|_| own.is_some()) {
+                        *own = own.join(seen);
+                    }
+                }
+            }
+        });
+        value
+    }
+
     /// Writes what is known of each entity with a name that a pattern covers as an entry of its own.
     fn keep_names(&mut self, fluent: Fluent, pattern: FactKey, place: usize) {
         let param = self.library.fluent(fluent).and_then(|def| def.params.get(place));
@@ -301,6 +324,7 @@ impl Prover<'_> {
         if self.is_disturbed(fluent, key) {
             return;
         }
+        let value = self.as_believed(fluent, key, value);
         self.state.facts.set(fluent, key, value);
         if !self.symbols.is_empty() && self.has_symbol(fluent, key) {
             self.aliased.get_mut(fluent.index()).into_iter().for_each(|aliased| *aliased = true);

@@ -308,6 +308,10 @@ fn proofs_of_what_was_seen_end_with_its_lifetime() {
                    makes not f(result)\n    lasts until base\n    uses base\n\
                    policy p { repeat 2 { miss(\"thing\") avoid(a) } }";
     assert_eq!(verdicts("avoid", missing), [Verdict::Deferred]);
+    // A guard may believe what was seen of another name.
+    let found = "perception find(what: Text) -> Object\n    makes f(result)\n    lasts until base\n    \
+                 uses base\nentity b: Object\npolicy p { let m = find(\"thing\") use(a) wave() use(a) }";
+    assert_eq!(verdicts("use", found), [Verdict::Deferred, Verdict::Deferred]);
     for steps in [
         "see_all(\"a\") pass() use(a)",
         "see_all(\"a\") make(a) wave() use(a)",

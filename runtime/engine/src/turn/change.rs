@@ -239,8 +239,8 @@ impl Contracts<'_> {
         let mut judge = self.judge(None);
         let entities = lifetime.entities.iter().filter_map(|term| entity(judge.term(term)?));
         let entities: Vec<SmolStr> = entities.collect();
-        // What is both made and unmade stands once.
-        for BeliefChange { fluent, args, .. } in changes.iter().filter(|change| change.sure) {
+        // What is both made and unmade stands once. So does what was perhaps made as it was before.
+        for BeliefChange { fluent, args, .. } in changes.iter().filter(|change| !change.rest) {
             let fact = Query::Fact { fluent: fluent.clone(), args: args.clone() };
             let lasting = &mut self.beliefs.lasting;
             if lasting.iter().all(|known| known.fact != fact) {
