@@ -286,12 +286,18 @@ impl<'d> World<'d> {
         if hidden.is_empty() { told(false) } else { Answer::Unknown }
     }
 
-    /// Ends the lifetimes of facts that an answer has told: they are so until something changes them.
+    /// Ends the lifetimes of facts that an answer has told: they are so until something changes them. That
+    /// some are true tells those that are.
     fn observed(&mut self, query: &Query, answer: &Answer) {
-        let cells = self.asked(query).unwrap_or_default();
-        if *answer == Answer::Truth(false) || (cells.len() == 1 && *answer != Answer::Unknown) {
-            self.lasting.retain(|lasting| !cells.contains(&lasting.cell));
+        let is_some = matches!(answer, Answer::Truth(true) | Answer::Value(_));
+        let mut told = self.asked(query).unwrap_or_default();
+        if *answer == Answer::Unknown {
+            return;
         }
+        if is_some && told.len() > 1 {
+            told.retain(|cell| self.state.get(*cell) == Some(&true));
+        }
+        self.lasting.retain(|lasting| !told.contains(&lasting.cell));
     }
 
     fn is_watched(&self, query: &Query) -> bool {
