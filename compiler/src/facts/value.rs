@@ -229,7 +229,10 @@ impl TruthSet {
         if self.same_set(new) {
             return self.join(new);
         }
-        let kept = |own: Cause, new: Cause| if own.is_some() { own.join(new) } else { own };
+        // What the run has perhaps seen again, it perhaps believes for a time.
+        let kept = |own: Cause, new: Cause| {
+            if own.is_some() { own.join(new) } else { new.seen().unwrap_or(own) }
+        };
         let rest = Self::open(cause);
         if new.is_true() {
             Self { yes: kept(self.yes, new.yes), ..rest }

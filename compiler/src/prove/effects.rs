@@ -13,7 +13,7 @@ use smallvec::SmallVec;
 use smol_str::SmolStr;
 
 use crate::declare::{EffectDef, PerceptionLifetime, PrimitiveDef};
-use crate::ir::{Condition, Entity, Fact, Fluent, Kind, NOBODY, StepId, Term, Ty};
+use crate::ir::{Base, Condition, Entity, Fact, Fluent, Kind, NOBODY, StepId, Term, Ty};
 
 /// Maximal number of facts that one with symbols may be, before all facts of its fluent are weakened.
 const MAX_INSTANCES: usize = 4096;
@@ -162,12 +162,26 @@ impl Prover<'_> {
     fn change_nameless(&self, effect: &EffectDef, frame: CallFrame<'_>, changes: &mut Vec<FactChange>) {
         let fluent = effect.fact.fluent;
         let Some(key) = self.key(&effect.fact, CallFrame { each: None, ..frame }) else { return };
+        if effect.each.is_some_and(|kind| self.are_all_named(kind)) {
+            return;
+        }
         let mut open = (0..effect.fact.args.len()).filter(|index| key.arg(*index) == ANY);
         let is_each = |place: &usize| effect.fact.args.get(*place) == Some(&Some(Term::Each));
         // Else the facts of a name cannot be told from the others: nothing is known of any.
         let nameless = open.next().filter(is_each).filter(|_| open.next().is_none());
         let nameless = nameless.filter(|_| !self.has_symbol(fluent, key));
         changes.push(FactChange { fluent, key, truth: effect.value, sure: Certainty::Unknown, nameless });
+    }
+
+    /// Returns whether all entities of a kind have a name: in a closed world in which no perception finds any.
+    fn are_all_named(&self, kind: Kind) -> bool {
+        let is_found = |def: &PrimitiveDef| {
+            let found = def.result.filter(|_| def.form == PrimitiveKind::Perception);
+            found
+                .and_then(|ty| if let Base::Entity(of) = ty.base { Some(of) } else { None })
+                .is_some_and(|of| self.library.is_kind(of, kind) || self.library.is_kind(kind, of))
+        };
+        self.library.closed_world && !self.library.primitives.iter().any(is_found)
     }
 
     /// Returns whether one pattern covers what an effect is about, and nothing else: its `each` stands in one
@@ -278,8 +292,8 @@ impl Prover<'_> {
         }
     }
 
-    /// What an observation has shown, as the run knows it: what it believes of another name may answer, and
-    /// that may last only for a time.
+    /// What an observation has shown, as the run knows it: a belief about another name may have answered, and
+    /// may last only for a time.
     fn as_believed(&self, fluent: Fluent, key: FactKey, mut value: TruthSet) -> TruthSet {
         if self.state.lasting.is_empty()
             || self.symbols.is_empty()
@@ -305,8 +319,14 @@ impl Prover<'_> {
     fn keep_names(&mut self, fluent: Fluent, pattern: FactKey, place: usize) {
         let param = self.library.fluent(fluent).and_then(|def| def.params.get(place));
         let Some(kind) = param.and_then(|(_, ty)| ty.kind()) else { return };
-        let symbols = self.symbols.iter().map(|(entity, _)| entity);
-        let named: Vec<Entity> = self.of_kind(kind, usize::MAX).into_iter().chain(symbols).collect();
+        let is_fit = |of: Kind| self.library.is_kind(of, kind) || self.library.is_kind(kind, of);
+        let symbols = self.symbols.iter().filter(|(_, symbol)| is_fit(symbol.kind)).map(|(entity, _)| entity);
+        let first = self.of_kind(kind, usize::MAX);
+        let count = first.len();
+        let named: Vec<Entity> = first.into_iter().chain(symbols).collect();
+        if named.len() > count {
+            self.aliased.get_mut(fluent.index()).into_iter().for_each(|aliased| *aliased = true);
+        }
         effort::spend(effort::WRITE * named.len());
         for entity in named {
             let key = pattern.with(place, entity.0);
@@ -336,6 +356,7 @@ impl Prover<'_> {
     pub(super) fn see_change(&mut self, fluent: Fluent, key: FactKey, value: TruthSet, cause: Cause) {
         if !self.is_disturbed(fluent, key) {
             let change = FactChange { fluent, key, truth: true, sure: Certainty::Always, nameless: None };
+            let value = self.as_believed(fluent, key, value);
             self.write(&change, cause, |_| value);
         }
     }
@@ -549,7 +570,8 @@ struct Moved {
 pub(super) fn weaken(first: &mut Vec<FactChange>, later: &[FactChange]) {
     let is_in = |changes: &[FactChange], change: &FactChange| {
         let same = |other: &&FactChange| {
-            (other.fluent, other.key, other.truth) == (change.fluent, change.key, change.truth)
+            (other.fluent, other.key, other.truth, other.nameless)
+                == (change.fluent, change.key, change.truth, change.nameless)
         };
         changes.iter().find(same).map(|other| other.sure)
     };

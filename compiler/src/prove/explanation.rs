@@ -415,18 +415,14 @@ impl Prover<'_> {
 
     fn fact_text(&self, fact: &Fact, frame: CallFrame<'_>) -> String {
         let Some(def) = self.library.fluent(fact.fluent) else { return "…".to_owned() };
-        if frame.each.is_none() && fact.args.contains(&Some(Term::Each)) {
+        let is_bound = frame.each.is_some() || !fact.args.contains(&Some(Term::Each));
+        let Some(key) = self.key(fact, frame).filter(|_| is_bound) else {
             let arg =
                 |arg: &Option<Term>| arg.as_ref().map_or("any".into(), |arg| self.term_text(arg, frame));
             return format!("{}({})", def.name, fact.args.iter().map(arg).collect::<Vec<_>>().join(", "));
-        }
-        match self.key(fact, frame) {
-            Some(key) => {
-                let name = |index, arg| self.argument_name(fact.fluent, index, arg);
-                show(&def.name, key, def.params.len(), name).trim_matches('`').to_owned()
-            }
-            None => def.name.to_string(),
-        }
+        };
+        let name = |index, arg| self.argument_name(fact.fluent, index, arg);
+        show(&def.name, key, def.params.len(), name).trim_matches('`').to_owned()
     }
 
     /// Spelling of a term.

@@ -197,7 +197,7 @@ impl<'a> Prover<'a> {
         let row = |(fluent, key)| Volatile { fluent, key, value, when: None, restored: false };
         let rows = self.atoms_of(free).into_iter().map(row);
         self.state.volatile.extend(rows);
-        // What a step does to a name may set it off. Then it goes on when the world has undone that.
+        // A step on a name may set the monitor off. Then the body goes on when the world has undone that.
         let goes_on =
             |when: &&When| matches!(when.reaction, Reaction::Pause { .. } | Reaction::Resume { .. });
         let mut restored = Vec::new();

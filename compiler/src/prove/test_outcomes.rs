@@ -99,7 +99,9 @@ impl Test {
         let mut bounds: Vec<f64> = constants.iter().map(|with| position(with)).collect();
         bounds.sort_unstable_by(f64::total_cmp);
         let near = |value: &f64| {
-            [value.floor() - 1.0, value.floor(), *value, value.ceil(), value.ceil() + 1.0].into_iter()
+            let (down, up) =
+                ((value.floor() - 1.0).min(value.next_down()), (value.ceil() + 1.0).max(value.next_up()));
+            [down, value.floor(), *value, value.ceil(), up].into_iter()
         };
         let between = bounds.iter().zip(bounds.iter().skip(1)).map(|(one, next)| f64::midpoint(*one, *next));
         let values = bounds.iter().flat_map(near).chain(between).filter(|value| is_value(*value));
@@ -118,8 +120,8 @@ impl Test {
     }
 }
 
-/// The length of a list that a binding is a name for. A step that binds the list anew comes before the one
-/// that names its length anew, and no use stands between.
+/// The length of a list that a binding is a name for. Where a loop binds the list again, it also binds this
+/// name again before any use of it.
 fn length<'p>(term: &Term, program: &'p Program) -> Option<&'p Term> {
     let binder = |term: &Term| match term {
         Term::Binding(id) => match *program.bindings.get(id.index())?.binders.as_slice() {

@@ -60,8 +60,7 @@ impl Prover<'_> {
         let single: Vec<_> = single.collect();
         for row in &patterns {
             // A narrower row of the same reaction says more of what it covers.
-            let narrower: SmallVec<[FactKey; 16]> = rows
-                .iter()
+            let narrower: SmallVec<[FactKey; 16]> = own()
                 .filter(|other| {
                     (other.fluent, other.when) == (row.fluent, row.when)
                         && other.key != row.key
@@ -112,8 +111,8 @@ impl Prover<'_> {
         !is_told && self.is_name(row, (fluent, key)) && self.may_be_same(params, row.key, key)
     }
 
-    /// Returns whether a fact or a row is about a name that may be what the other is about. Else the fact has
-    /// a row of its own, but for those that are restored.
+    /// Returns whether the fact or the row is about a name. A row about no name says nothing more of a fact
+    /// about no name: that fact has its own row. A row that is restored has none for what its name may be.
     fn is_name(&self, row: &Volatile, (fluent, key): Atom) -> bool {
         self.has_symbol(fluent, key) || row.restored && self.has_symbol(fluent, row.key)
     }
@@ -121,7 +120,10 @@ impl Prover<'_> {
     /// Weakens the facts about names that may be what a row is about. A name that the body has bound has no
     /// row of its own.
     fn erode_names(&mut self, rows: &[Volatile]) {
-        let has_names = |row: &&Volatile| self.aliased.get(row.fluent.index()).is_some_and(|is| *is);
+        let has_names = |row: &&Volatile| {
+            self.aliased.get(row.fluent.index()).is_some_and(|is| *is)
+                || row.restored && self.has_symbol(row.fluent, row.key)
+        };
         let mut fluents: Vec<Fluent> = rows.iter().filter(has_names).map(|row| row.fluent).collect();
         fluents.sort_unstable();
         fluents.dedup();
@@ -133,9 +135,16 @@ impl Prover<'_> {
                     names.push(key);
                 }
             });
+            // Facts of the start have no entry of their own.
+            for row in of_fluent().filter(|row| row.restored) {
+                names.extend(
+                    self.aliases(fluent, row.key).unwrap_or_else(|| [FactKey::ALL].into_iter().collect()),
+                );
+            }
             effort::spend(names.len().saturating_mul(rows.len()));
             // The wider first, so that what they cover is written after them.
             names.sort_unstable_by_key(|key| (!key.is_pattern(), *key));
+            names.dedup();
             for key in names {
                 for row in of_fluent() {
                     if self.is_perhaps(row, (fluent, key), rows) {

@@ -127,6 +127,7 @@ fn names_feel_what_the_world_does_to_what_is_watched() {
             vec![false],
         ),
         ("wash(a) monitor when not clean(a) then pause during { wash(b) wait 3 s use(b) }", vec![true]),
+        ("let m = look_o(\"x\") monitor when not clean(m) then pause during { use_not(a) }", vec![false]),
     ] {
         assert_eq!(proven(body), Ok(expected), "{body}");
     }

@@ -65,6 +65,16 @@ fn guards(graph: &motet_graph::Graph) -> BTreeMap<String, usize> {
 }
 
 #[test]
+fn left_to_run_are_facts_with_their_arguments() {
+    let (session, _) = setup::session(None, None, &mut Sources::default());
+    let text = "fluent wet(e: Entity)\nperception all(what: Text) -> List<Object>\naction dry(o: Object)\n    \
+                needs wet(o)\n    makes not wet(o)\npolicy p { let xs = all(\"mug\") dry(first(xs)) }";
+    let checked = session.check_document(&motet_syntax::read(&Source::new("p.motet", text), FileId(99)));
+    let told: Vec<&str> = checked.deferred_notes.iter().map(|note| note.message.as_str()).collect();
+    assert!(told.iter().any(|told| told.contains("`wet(first(xs))`")), "{told:?}");
+}
+
+#[test]
 fn left_to_run_are_the_guards_of_the_graph() {
     let mut seen = 0;
     for (path, robot, scene) in examples::examples() {
@@ -311,7 +321,14 @@ fn proofs_of_what_was_seen_end_with_its_lifetime() {
     // A guard may believe what was seen of another name.
     let found = "perception find(what: Text) -> Object\n    makes f(result)\n    lasts until base\n    \
                  uses base\nentity b: Object\npolicy p { let m = find(\"thing\") use(a) wave() use(a) }";
-    assert_eq!(verdicts("use", found), [Verdict::Deferred, Verdict::Deferred]);
+    assert_eq!(verdicts("use", found), [Verdict::Deferred]);
+    let waits = found.replace("use(a) wave()", "wait until f(a) within 5 s wave()");
+    assert_eq!(verdicts("use", &waits), [Verdict::Deferred]);
+    // So may it be answered by what was perhaps seen.
+    let perhaps = "perception see_some(what: Text)\n    makes f(o) for each o: Object when g(o)\n    \
+                   lasts until base\n    uses camera\n\
+                   policy p { see_some(\"x\") use(a) wave() use(a) }";
+    assert_eq!(verdicts("use", perhaps), [Verdict::Deferred]);
     for steps in [
         "see_all(\"a\") pass() use(a)",
         "see_all(\"a\") make(a) wave() use(a)",

@@ -74,6 +74,11 @@ fn quantified_effect_also_concerns_things_that_nobody_has_named() {
     assert_eq!(verdict("needs_ok", spoil, "make(a) mark(a) spoil_all() needs_ok(a)"), Verdict::Proven);
     let found = "make(a) let m = look_o(\"x\") mark(m) spoil_all() needs_ok(m)";
     assert_eq!(verdict("needs_ok", spoil, found), Verdict::Deferred);
+    let unmark = format!(
+        "{spoil}action unmark(e: Entity)\n    makes not ok(e)\naction mark_all()\n    makes ok(any)\n"
+    );
+    let found = "make(a) let m = look_o(\"x\") make(m) mark_all() spoil_all() unmark(a) needs_ok(m)";
+    assert_eq!(verdict("needs_ok", &unmark, found), Verdict::Deferred);
     let closed = format!("{spoil}closed world\n");
     assert_eq!(verdict("use", &closed, "make(a) spoil() use(a)"), Verdict::Proven);
 }

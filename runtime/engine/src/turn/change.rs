@@ -178,7 +178,7 @@ impl Turn<'_> {
                 OfKind::No => continue,
                 OfKind::Perhaps | OfKind::Surely => self.need_of(need, Some(Value::Entity(id)), fresh),
             };
-            // Of one that may be of another kind it may not be asked.
+            // The need may not apply to an entity that may be of another kind.
             let is_open = of_kind == OfKind::Perhaps && own == Truth::False;
             truth = truth.and(if is_open { Truth::Unknown } else { own });
         }
@@ -239,12 +239,13 @@ impl Contracts<'_> {
         let mut judge = self.judge(None);
         let entities = lifetime.entities.iter().filter_map(|term| entity(judge.term(term)?));
         let entities: Vec<SmolStr> = entities.collect();
-        // What is both made and unmade stands once. So does what was perhaps made as it was before.
+        // What was perhaps made gets a lifetime, too: it may be so only because it was seen.
         for BeliefChange { fluent, args, .. } in changes.iter().filter(|change| !change.rest) {
             let fact = Query::Fact { fluent: fluent.clone(), args: args.clone() };
-            let lasting = &mut self.beliefs.lasting;
-            if lasting.iter().all(|known| known.fact != fact) {
-                lasting.push(PerceivedFact { fact, uses: uses.clone(), entities: entities.clone() });
+            let perceived = PerceivedFact { fact, uses: uses.clone(), entities: entities.clone() };
+            // What is both made and unmade stands once.
+            if !self.beliefs.lasting.contains(&perceived) {
+                self.beliefs.lasting.push(perceived);
             }
         }
         for end in std::mem::take(&mut self.ends) {
@@ -387,7 +388,8 @@ impl Contracts<'_> {
         });
         let Some(args) = args.collect::<Option<Vec<_>>>() else { return };
         let Some(fluent) = judge.graph.fluents.get(entry.fact.fluent.index()) else { return };
-        // Some of them may be of another kind, so it is never sure. What is not about them feels it, too.
+        // Some of them may be of another kind, so it is never sure. An entry that does not mention them changes
+        // facts that are known by name.
         let rest = entry.fact.args.contains(&FactArg::Term(Term::Each));
         changes.push(BeliefChange {
             fluent: fluent.name.clone(),

@@ -120,6 +120,7 @@ impl RemoteDriver {
             }
             match link.hear_unless(left, self.patience.is_over) {
                 Ok(Some(line)) => self.hear_line(&line),
+                Ok(None) if (self.patience.is_over)() => return,
                 Ok(None) => self.broke(&LinkError::Silent(self.patience.step)),
                 Err(breakage) => self.broke(&breakage),
             }
@@ -133,7 +134,7 @@ impl RemoteDriver {
                 return Some((at, event));
             }
             let now = self.time.now();
-            if now >= until {
+            if now >= until || (self.patience.is_over)() {
                 return None;
             }
             if self.link.is_none() && (self.goals.stopping.is_empty() || !self.reach_to_stop()) {
