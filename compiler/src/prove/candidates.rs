@@ -1,14 +1,14 @@
 //! Candidates of a quantified need or effect: the entities of a kind for which its `when` may hold.
 
-use motet_syntax::ast::CompareOp;
+use motet_syntax::ast::{CompareOp, PrimitiveKind};
 use smallvec::SmallVec;
 
 use super::Prover;
 use super::effects::{Certainty, Entities, certainty};
 use super::evaluation::CallFrame;
-use crate::declare::NeedDef;
+use crate::declare::{NeedDef, PrimitiveDef};
 use crate::facts::{ANY, FactKey, TruthSet, effort};
-use crate::ir::{Condition, Entity, Fact, Kind, Term};
+use crate::ir::{Base, Condition, Entity, Fact, Kind, Term, Ty};
 
 /// Entities of a kind for which a condition may hold.
 #[derive(Debug, Default)]
@@ -106,6 +106,17 @@ impl Prover<'_> {
         } else if self.symbols.get(entity).is_some_and(|symbol| self.library.is_kind(kind, symbol.kind)) {
             found.doubtful.push(entity);
         }
+    }
+
+    /// Returns whether all entities of a kind have a name: in a closed world without perceptions of any.
+    pub(super) fn are_all_named(&self, kind: Kind) -> bool {
+        let is_found = |def: &PrimitiveDef| match def.result {
+            Some(Ty { base: Base::Entity(of), .. }) if def.form == PrimitiveKind::Perception => {
+                self.library.is_kind(of, kind) || self.library.is_kind(kind, of)
+            }
+            _ => false,
+        };
+        self.library.closed_world && !self.library.primitives.iter().any(is_found)
     }
 
     /// All entities of a kind that have a name. Where the environment has none of the kind, there may be

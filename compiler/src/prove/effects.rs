@@ -13,7 +13,7 @@ use smallvec::SmallVec;
 use smol_str::SmolStr;
 
 use crate::declare::{EffectDef, PerceptionLifetime, PrimitiveDef};
-use crate::ir::{Base, Condition, Entity, Fact, Fluent, Kind, NOBODY, StepId, Term, Ty};
+use crate::ir::{Condition, Entity, Fact, Fluent, Kind, NOBODY, StepId, Term, Ty};
 
 /// Maximal number of facts that one with symbols may be, before all facts of its fluent are weakened.
 const MAX_INSTANCES: usize = 4096;
@@ -171,17 +171,6 @@ impl Prover<'_> {
         let nameless = open.next().filter(is_each).filter(|_| open.next().is_none());
         let nameless = nameless.filter(|_| !self.has_symbol(fluent, key));
         changes.push(FactChange { fluent, key, truth: effect.value, sure: Certainty::Unknown, nameless });
-    }
-
-    /// Returns whether all entities of a kind have a name: in a closed world in which no perception finds any.
-    fn are_all_named(&self, kind: Kind) -> bool {
-        let is_found = |def: &PrimitiveDef| {
-            let found = def.result.filter(|_| def.form == PrimitiveKind::Perception);
-            found
-                .and_then(|ty| if let Base::Entity(of) = ty.base { Some(of) } else { None })
-                .is_some_and(|of| self.library.is_kind(of, kind) || self.library.is_kind(kind, of))
-        };
-        self.library.closed_world && !self.library.primitives.iter().any(is_found)
     }
 
     /// Returns whether one pattern covers what an effect is about, and nothing else: its `each` stands in one
@@ -354,11 +343,15 @@ impl Prover<'_> {
     /// Writes a fact that something outside may have changed, as [`learn`](Self::learn) does, and weakens the
     /// facts that may be the same.
     pub(super) fn see_change(&mut self, fluent: Fluent, key: FactKey, value: TruthSet, cause: Cause) {
-        if !self.is_disturbed(fluent, key) {
-            let change = FactChange { fluent, key, truth: true, sure: Certainty::Always, nameless: None };
-            let value = self.as_believed(fluent, key, value);
-            self.write(&change, cause, |_| value);
+        let change = FactChange { fluent, key, truth: true, sure: Certainty::Always, nameless: None };
+        if self.is_disturbed(fluent, key) {
+            // It was so. Since then the branch beside may have changed it.
+            return self.write(&FactChange { sure: Certainty::Unknown, ..change }, cause, |old| {
+                old.maybe(value, cause)
+            });
         }
+        let value = self.as_believed(fluent, key, value);
+        self.write(&change, cause, |_| value);
     }
 
     /// Returns whether a branch beside the present one may change a fact, or one of a pattern.

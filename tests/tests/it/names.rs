@@ -67,6 +67,8 @@ fn names_feel_what_another_branch_does() {
              parallel { { wash(m) use(m) } { soil(n) use_not(n) } } use(m)",
             vec![false; 3],
         ),
+        // A wait sees what the other branch may have changed since.
+        ("wash(a) parallel { { soil(b) } { wait until not clean(any) within 3 s use(a) } }", vec![false]),
         // Bound before the block.
         ("let m = look_o(\"x\") wash(m) parallel { { use(m) } { soil(a) } }", vec![false]),
         ("let m = look_o(\"x\") parallel { { wash(m) wait 1 s use(m) } { soil(a) } } use(m)", vec![false; 2]),

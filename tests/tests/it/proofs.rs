@@ -67,8 +67,9 @@ fn guards(graph: &motet_graph::Graph) -> BTreeMap<String, usize> {
 #[test]
 fn left_to_run_are_facts_with_their_arguments() {
     let (session, _) = setup::session(None, None, &mut Sources::default());
-    let text = "fluent wet(e: Entity)\nperception all(what: Text) -> List<Object>\naction dry(o: Object)\n    \
-                needs wet(o)\n    makes not wet(o)\npolicy p { let xs = all(\"mug\") dry(first(xs)) }";
+    let text = "fluent wet(e: Entity)\nperception all(what: Text) -> List<Object>\n\
+                action dry(o: Object)\n    needs wet(o)\n    makes not wet(o)\n\
+                policy p { let xs = all(\"mug\") dry(first(xs)) }";
     let checked = session.check_document(&motet_syntax::read(&Source::new("p.motet", text), FileId(99)));
     let told: Vec<&str> = checked.deferred_notes.iter().map(|note| note.message.as_str()).collect();
     assert!(told.iter().any(|told| told.contains("`wet(first(xs))`")), "{told:?}");

@@ -388,8 +388,8 @@ impl Contracts<'_> {
         });
         let Some(args) = args.collect::<Option<Vec<_>>>() else { return };
         let Some(fluent) = judge.graph.fluents.get(entry.fact.fluent.index()) else { return };
-        // Some of them may be of another kind, so it is never sure. An entry that does not mention them changes
-        // facts that are known by name.
+        // Some of them may be of another kind, so it is never sure. An entry that does not mention them also
+        // changes facts that are known by name.
         let rest = entry.fact.args.contains(&FactArg::Term(Term::Each));
         changes.push(BeliefChange {
             fluent: fluent.name.clone(),
