@@ -424,6 +424,13 @@ pub(crate) enum Reaction {
     End { kind: EndKind, of: Option<StepId>, why: Option<Term> },
 }
 
+impl Reaction {
+    /// Returns whether the body goes on behind the reaction.
+    pub(crate) fn goes_on(&self) -> bool {
+        matches!(self, Self::Pause { .. } | Self::Resume { .. })
+    }
+}
+
 /// A handler of failures.
 #[derive(Clone, Debug)]
 pub(crate) struct Catch {

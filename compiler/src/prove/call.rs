@@ -14,7 +14,7 @@ use crate::declare::{EffectDef, LastsDef, NeedDef, PerceptionLifetime, Primitive
 use crate::environment::base_pose_facts;
 use crate::facts::{ANY, Cause, FactKey, TruthSet, effort};
 use crate::ir::{
-    Base, BindingId, Call, Condition, Entity, Fluent, MotionKind, Reaction, StepId, StepKind, Term, Ty, When,
+    Base, BindingId, Call, Condition, Entity, Fluent, MotionKind, StepId, StepKind, Term, Ty, When,
 };
 
 impl<'a> Prover<'a> {
@@ -79,8 +79,7 @@ impl<'a> Prover<'a> {
         let Some(Term::Param(index)) = args.first() else { return };
         let Some(Term::Pose { xyz: [x, y, _], .. }) = frame.args.get(usize::from(*index)) else { return };
         let facts = base_pose_facts::from_base(self.library, self.environment, [*x, *y]);
-        let change =
-            |(fluent, key, truth)| FactChange { fluent, key, truth, sure: Certainty::Always, nameless: None };
+        let change = |(fluent, key, truth)| FactChange::new(fluent, key, truth, Certainty::Always);
         let changes: Vec<FactChange> = facts.into_iter().map(change).collect();
         self.make(&changes, cause);
     }
@@ -185,7 +184,7 @@ impl<'a> Prover<'a> {
 
     /// Returns whether a monitor around the step may interrupt it and let it begin again.
     fn may_begin_again(&self) -> bool {
-        let goes_on = |when: &When| matches!(when.reaction, Reaction::Pause { .. } | Reaction::Resume { .. });
+        let goes_on = |when: &When| when.reaction.goes_on();
         self.state.watched.iter().any(|watched| {
             let kind = self.program.step(watched.by).map(|step| &step.kind);
             matches!(kind, Some(StepKind::Monitor { whens, .. }) if whens.iter().any(goes_on))

@@ -30,9 +30,14 @@ pub(crate) struct FactChange {
 }
 
 impl FactChange {
+    /// A change of a fact, or of all facts that a pattern covers.
+    pub(super) fn new(fluent: Fluent, key: FactKey, truth: bool, sure: Certainty) -> Self {
+        Self { fluent, key, truth, sure, nameless: None }
+    }
+
     /// A fact that may have changed on some path.
     pub(super) fn perhaps(fluent: Fluent, key: FactKey) -> Self {
-        Self { fluent, key, truth: true, sure: Certainty::Sometimes, nameless: None }
+        Self::new(fluent, key, true, Certainty::Sometimes)
     }
 
     /// A fact of which nothing is known any more.
@@ -81,16 +86,9 @@ impl Prover<'_> {
             .map_or(Some(Certainty::Always), |when| certainty(self.evaluate(when, frame)));
         let Some(sure) = sure else { return };
         let fluent = effect.fact.fluent;
-        match self.key(&effect.fact, frame) {
-            Some(key) => changes.push(FactChange { fluent, key, truth: effect.value, sure, nameless: None }),
-            None => changes.push(FactChange {
-                fluent,
-                key: FactKey::ALL,
-                truth: effect.value,
-                sure: Certainty::Misread,
-                nameless: None,
-            }),
-        }
+        let key = self.key(&effect.fact, frame);
+        let (key, sure) = key.map_or((FactKey::ALL, Certainty::Misread), |key| (key, sure));
+        changes.push(FactChange::new(fluent, key, effect.value, sure));
     }
 
     /// Forgets all facts, after a step with an error.
@@ -134,8 +132,7 @@ impl Prover<'_> {
             let sure = if is_one { sure } else { sure.max(Certainty::Unknown) };
             // Those of which nothing is known by name: one pattern for all of them.
             if let Some(key) = self.key(&effect.fact, CallFrame { each: None, ..frame }) {
-                let fluent = effect.fact.fluent;
-                changes.push(FactChange { fluent, key, truth: effect.value, sure, nameless: None });
+                changes.push(FactChange::new(effect.fact.fluent, key, effect.value, sure));
             }
             return;
         }
@@ -170,7 +167,8 @@ impl Prover<'_> {
         // Else the facts of a name cannot be told from the others: nothing is known of any.
         let nameless = open.next().filter(is_each).filter(|_| open.next().is_none());
         let nameless = nameless.filter(|_| !self.has_symbol(fluent, key));
-        changes.push(FactChange { fluent, key, truth: effect.value, sure: Certainty::Unknown, nameless });
+        let change = FactChange::new(fluent, key, effect.value, Certainty::Unknown);
+        changes.push(FactChange { nameless, ..change });
     }
 
     /// Returns whether one pattern covers what an effect is about, and nothing else: its `each` stands in one
@@ -281,8 +279,8 @@ impl Prover<'_> {
         }
     }
 
-    /// What an observation has shown, as the run knows it: a belief about another name may have answered, and
-    /// may last only for a time.
+    /// Value that an observation has shown, as the run knows it: a belief about another name may have
+    /// answered, and may last only for a time.
     fn as_believed(&self, fluent: Fluent, key: FactKey, mut value: TruthSet) -> TruthSet {
         if self.state.lasting.is_empty()
             || self.symbols.is_empty()
@@ -309,15 +307,14 @@ impl Prover<'_> {
         let param = self.library.fluent(fluent).and_then(|def| def.params.get(place));
         let Some(kind) = param.and_then(|(_, ty)| ty.kind()) else { return };
         let is_fit = |of: Kind| self.library.is_kind(of, kind) || self.library.is_kind(kind, of);
-        let symbols = self.symbols.iter().filter(|(_, symbol)| is_fit(symbol.kind)).map(|(entity, _)| entity);
-        let first = self.of_kind(kind, usize::MAX);
-        let count = first.len();
-        let named: Vec<Entity> = first.into_iter().chain(symbols).collect();
-        if named.len() > count {
-            self.aliased.get_mut(fluent.index()).into_iter().for_each(|aliased| *aliased = true);
+        let symbols = self.symbols.iter().filter(|(_, symbol)| is_fit(symbol.kind));
+        let symbols: Vec<Entity> = symbols.map(|(entity, _)| entity).collect();
+        if !symbols.is_empty() {
+            self.alias(fluent);
         }
-        effort::spend(effort::WRITE * named.len());
-        for entity in named {
+        let entities = self.of_kind(kind, usize::MAX);
+        effort::spend(effort::WRITE * (entities.len() + symbols.len()));
+        for entity in entities.into_iter().chain(symbols) {
             let key = pattern.with(place, entity.0);
             if self.state.facts.entry(fluent, key).is_none() {
                 let known = self.read(fluent, key);
@@ -336,22 +333,25 @@ impl Prover<'_> {
         let value = self.as_believed(fluent, key, value);
         self.state.facts.set(fluent, key, value);
         if !self.symbols.is_empty() && self.has_symbol(fluent, key) {
-            self.aliased.get_mut(fluent.index()).into_iter().for_each(|aliased| *aliased = true);
+            self.alias(fluent);
         }
+    }
+
+    /// Lets the facts of a fluent feel from now on what happens to the entities that its symbols may be.
+    fn alias(&mut self, fluent: Fluent) {
+        self.aliased.get_mut(fluent.index()).into_iter().for_each(|aliased| *aliased = true);
     }
 
     /// Writes a fact that something outside may have changed, as [`learn`](Self::learn) does, and weakens the
     /// facts that may be the same.
     pub(super) fn see_change(&mut self, fluent: Fluent, key: FactKey, value: TruthSet, cause: Cause) {
-        let change = FactChange { fluent, key, truth: true, sure: Certainty::Always, nameless: None };
         if self.is_disturbed(fluent, key) {
             // It was so. Since then the branch beside may have changed it.
-            return self.write(&FactChange { sure: Certainty::Unknown, ..change }, cause, |old| {
-                old.maybe(value, cause)
-            });
+            let unknown = FactChange::unknown(fluent, key);
+            return self.write(&unknown, cause, |old| old.maybe(value, cause));
         }
         let value = self.as_believed(fluent, key, value);
-        self.write(&change, cause, |_| value);
+        self.write(&FactChange::new(fluent, key, true, Certainty::Always), cause, |_| value);
     }
 
     /// Returns whether a branch beside the present one may change a fact, or one of a pattern.

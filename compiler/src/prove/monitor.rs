@@ -150,7 +150,7 @@ impl<'a> Prover<'a> {
     fn enter_body(&mut self, id: StepId, whens: &'a [When]) {
         for when in whens.iter().filter(|when| when.hold_secs == 0.0) {
             let here = self.state.facts.mark();
-            let goes_on = matches!(when.reaction, Reaction::Pause { .. } | Reaction::Resume { .. });
+            let goes_on = when.reaction.goes_on();
             if goes_on {
                 // On each of the paths that have met the body may begin.
                 self.forget_paths(&when.condition);
@@ -180,7 +180,7 @@ impl<'a> Prover<'a> {
     fn leave_body(&mut self, id: StepId, whens: &'a [When]) {
         self.erode();
         for when in whens {
-            if matches!(when.reaction, Reaction::Pause { .. } | Reaction::Resume { .. }) {
+            if when.reaction.goes_on() {
                 self.doubt(&when.condition, Cause::step(id));
             }
         }
@@ -198,10 +198,8 @@ impl<'a> Prover<'a> {
         let rows = self.atoms_of(free).into_iter().map(row);
         self.state.volatile.extend(rows);
         // A step on a name may set the monitor off. Then the body goes on when the world has undone that.
-        let goes_on =
-            |when: &&When| matches!(when.reaction, Reaction::Pause { .. } | Reaction::Resume { .. });
         let mut restored = Vec::new();
-        for when in whens.iter().filter(goes_on).filter(|when| when.hold_secs == 0.0) {
+        for when in whens.iter().filter(|when| when.reaction.goes_on() && when.hold_secs == 0.0) {
             settled_facts(&when.condition, false, &mut restored);
         }
         for (fact, truth) in restored {

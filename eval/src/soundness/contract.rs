@@ -4,6 +4,7 @@
 //! This is a reading of the language of its own: it shares nothing with the compiler and the engine.
 
 use std::fmt;
+use std::ops::Range;
 
 use super::make::LIBRARY;
 
@@ -179,10 +180,10 @@ impl Domain {
         self.of_kind(kind).any(|one| one < self.declared)
     }
 
-    /// Returns whether there are entities of which the domain says nothing.
+    /// Entities of which the domain says nothing.
     #[must_use]
-    pub(super) fn has_undeclared(&self) -> bool {
-        self.declared + LIBRARY.len() < self.entities.len()
+    pub(super) fn undeclared(&self) -> Range<usize> {
+        self.declared..self.entities.len() - LIBRARY.len()
     }
 
     /// Index of an entity.

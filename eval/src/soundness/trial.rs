@@ -536,7 +536,7 @@ impl Run<'_> {
             return;
         }
         let holds = world.meets(need, &frame);
-        let has_undeclared = world.domain().has_undeclared();
+        let has_undeclared = !world.domain().undeclared().is_empty();
         drop(world);
         let place = || format!("need {} of a call", index + 1);
         if *truth == Truth::Unknown {

@@ -11,7 +11,7 @@ use rand::RngExt as _;
 use rand_xoshiro::SplitMix64;
 
 use super::contract::{Action, Domain, Frame, Kind, Need, State};
-use super::make::{BASE, LIBRARY, chance, one_of};
+use super::make::{BASE, chance, one_of};
 
 /// Behaviour of a world.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -38,7 +38,7 @@ struct Running {
     makes: Vec<usize>,
     /// Cells that are as it made them only for a time.
     lasting: Vec<Lasting>,
-    /// What it uses and moves.
+    /// Use of the base by it, and the entities that it moves.
     stirs: Lifetime,
     /// Changes that are still to come, each at its time.
     flips: Vec<(Time, usize, bool)>,
@@ -132,7 +132,7 @@ impl<'d> World<'d> {
             running: Vec::new(),
             unheard: Vec::new(),
             watches: Vec::new(),
-            unheard_of: (domain.declared..domain.entities.len() - LIBRARY.len()).collect(),
+            unheard_of: domain.undeclared().collect(),
             outbox: VecDeque::new(),
             holds,
             answers_at_once: false,
@@ -393,7 +393,7 @@ impl<'d> World<'d> {
         Running { id, touches, unfinished, makes, lasting, stirs, flips, ends, outcome, held: None }
     }
 
-    /// What an action uses and moves.
+    /// Use of the base by an action, and the entities that it moves.
     fn stirs(&self, action: &Action, frame: &Frame) -> Lifetime {
         let is_action = action.finds.is_none() && !action.finds_all;
         let entries = [&action.makes, &action.unsettles].into_iter().filter(|_| is_action);

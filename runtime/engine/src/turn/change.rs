@@ -174,10 +174,10 @@ impl Turn<'_> {
         let sorting = self.run.beliefs.entities.sorting(&self.plan.graph, kind);
         for index in 0..self.run.beliefs.entities.len() {
             let Some((id, of_kind)) = self.run.beliefs.entities.get(index, &sorting) else { continue };
-            let own = match of_kind {
-                OfKind::No => continue,
-                OfKind::Perhaps | OfKind::Surely => self.need_of(need, Some(Value::Entity(id)), fresh),
-            };
+            if of_kind == OfKind::No {
+                continue;
+            }
+            let own = self.need_of(need, Some(Value::Entity(id)), fresh);
             // The need may not apply to an entity that may be of another kind.
             let is_open = of_kind == OfKind::Perhaps && own == Truth::False;
             truth = truth.and(if is_open { Truth::Unknown } else { own });
